@@ -1,6 +1,5 @@
 """What the robot is doing, as the page puts it into a sentence: from what behaviours declare."""
 
-from collections.abc import Mapping
 from typing import Any
 
 from executive.records import Activity, Tick, TreeShape
@@ -34,16 +33,4 @@ class Doing:
             "thing": situation.get("object") or "",
             "held": situation.get("in_hand") or "",
             "place": candidate["place"] if candidate else "",
-            **(_progress(situation) if candidate else {}),
         }
-
-
-def _progress(situation: Mapping[str, Any]) -> dict[str, int]:
-    """At which of how many places the search is; nothing if there is only one."""
-    visited = tuple(situation.get("visited") or ())
-    candidates = [c["place"] for c in situation.get("candidates") or ()]
-    here = situation["candidate"]["place"]
-    known = dict.fromkeys((*visited, *candidates, here))
-    if len(known) < 2:
-        return {}
-    return {"step": list(known).index(here) + 1, "steps": len(known)}

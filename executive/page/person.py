@@ -158,8 +158,9 @@ class PagePerson(Console):
         return self._doubt is not None and self._doubt.settle(number, agrees=agrees)
 
     def stops(self, by: str = THE_PERSON) -> None:
-        """They pressed the stop button: nothing has to be read first. Or somebody else, unseen."""
-        self._board.say({"who": "person", "stop": True, "at": time.time()})
+        """They pressed the stop button: nothing has to be read first. Or an experimenter did."""
+        who = "person" if by == THE_PERSON else "experimenter"
+        self._board.say({"who": who, "stop": True, "at": time.time()})
         self._stop(by)
         self._ask_nothing_back()
 

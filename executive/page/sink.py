@@ -7,7 +7,7 @@ from collections import OrderedDict
 from functools import lru_cache
 from typing import Any
 
-from executive.events import Ended, Started
+from executive.events import Broke, Ended, Started, StopRequested
 from executive.page.board import Board
 from executive.page.doing import Doing
 from executive.page.places import Places
@@ -57,6 +57,8 @@ class PageSink:
         self._jpeg = lru_cache(KEPT_FRAMES)(jpeg)
         self._pose: Pose | None = None
         self._places = Places()
+        self._is_cut_short = False
+        """Whether the mission was stopped, or broke: it does not tell the person how it ended."""
         board.put("doing", {"state": "starting"})
 
     def write(self, stamp: Stamp, record: Record) -> None:
@@ -104,7 +106,10 @@ class PageSink:
             return self._jpeg(frame) if frame is not None else None
 
     def _take(self, event: object) -> None:
-        if isinstance(event, Started):
+        if isinstance(event, StopRequested | Broke):
+            self._is_cut_short = True
+        elif isinstance(event, Started):
+            self._is_cut_short = False
             self._places = Places()
             self._board.put("outcome", None)
             self._board.put("places", None)
@@ -153,16 +158,8 @@ class PageSink:
         self._board.put("doing", {"state": "rest"})
         self._board.put("path", [])
         self._board.put("places", self._places.at_the_end())
-        self._board.put(
-            "outcome",
-            {
-                "status": outcome.status,
-                "reason": outcome.reason,
-                "mission_time_s": outcome.mission_time_s,
-                "inquiries": outcome.inquiries,
-                "visited": outcome.visited,
-            },
-        )
+        untold = outcome.reason.rstrip(".") if self._is_cut_short else ""
+        self._board.put("outcome", {"status": outcome.status, "untold": untold})
 
 
 def _add(kept: OrderedDict[int, Frame], frame: Frame) -> None:

@@ -24,7 +24,7 @@ MOST_BYTES = 8192
 """Of what a page sends: a thousand characters, however they are written."""
 MOST_PAGES = 50
 HEARTBEAT_S = 15.0
-"""A connection that broke without a word is found out so soon."""
+"""A connection that broke without a word is found out so soon; pages wait longer for one."""
 RETRY_MS = 1000
 """When a browser that lost the connection tries again."""
 PNG, JPEG = "image/png", "image/jpeg"
@@ -118,6 +118,8 @@ class _Answers:
 
     def __init__(self, behind: Behind) -> None:
         self._behind = behind
+        self._press: object = None
+        """Tells the last press of the stop button from others."""
         self._files = Files(ASSETS)
 
     async def page(self, request: Request) -> Response:
@@ -161,7 +163,11 @@ class _Answers:
         return JSONResponse({}) if done else PlainTextResponse("This question is over.", 409)
 
     async def stop(self, request: Request) -> Response:
-        self._behind.stops()
+        """Once for each time that it was pressed: a page sends it again until it is answered."""
+        press = (await sent_json(request)).get("press")
+        if press is None or press != self._press:
+            self._behind.stops()
+        self._press = press
         return JSONResponse({})
 
     async def why(self, request: Request) -> Response:
@@ -270,6 +276,6 @@ async def news(board: Board, known: int) -> AsyncIterator[str]:
                 async with asyncio.timeout(HEARTBEAT_S):
                     await changed.wait()
             except TimeoutError:
-                yield ": \n\n"
+                yield "event: alive\ndata: {}\n\n"
     finally:
         board.wait_no_more(wake)

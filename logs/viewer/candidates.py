@@ -20,6 +20,7 @@ COLORS = {
     State.OPEN: (90, 150, 255),
     State.CURRENT: (242, 169, 59),
     State.EMPTY: (229, 83, 75),
+    State.BEEN: (139, 148, 158),
     State.UNREACHED: (139, 148, 158),
     State.FOUND: (63, 185, 80),
 }

@@ -23,6 +23,7 @@ _MARKS = {
     State.OPEN: "",
     State.CURRENT: "▶",
     State.EMPTY: "✗",
+    State.BEEN: "•",
     State.UNREACHED: "✗",
     State.FOUND: "✓",
 }
@@ -105,7 +106,7 @@ def outcome(outcome: Outcome) -> str:
         f"{counted(outcome.llm_calls, 'call')} of the model · "
         f"{counted(outcome.inquiries, 'question')}"
     )
-    marks = dict.fromkeys(outcome.visited, _MARKS[State.EMPTY])
+    marks = dict.fromkeys(outcome.visited, _MARKS[State.EMPTY if outcome.object else State.BEEN])
     if outcome.location:
         marks[outcome.location] = _MARKS[State.FOUND]
     if outcome.candidates:

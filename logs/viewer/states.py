@@ -13,6 +13,8 @@ class State(StrEnum):
     """The robot is on its way there or looks there."""
     EMPTY = "empty"
     """The thing was looked for there, in vain."""
+    BEEN = "been"
+    """The robot was there, and looked for no one thing: it counts, say."""
     UNREACHED = "unreached"
     FOUND = "found"
 
@@ -24,7 +26,8 @@ def states(situation: Mapping[str, Any]) -> dict[str, State]:
         situation: the snapshot that each tick carries.
     """
     found = dict.fromkeys((c["place"] for c in situation.get("candidates") or ()), State.OPEN)
-    found |= dict.fromkeys(situation.get("visited") or (), State.EMPTY)
+    visited = State.EMPTY if situation.get("object") else State.BEEN
+    found |= dict.fromkeys(situation.get("visited") or (), visited)
     found |= dict.fromkeys(situation.get("unreached") or (), State.UNREACHED)
     for key, state in (("candidate", State.CURRENT), ("found", State.FOUND)):
         if situation.get(key):

@@ -23,7 +23,7 @@ FURNITURE = (
 
 
 def situation(*candidates: str, **known: Any) -> dict[str, Any]:
-    return {"candidates": [{"place": place} for place in candidates], **known}
+    return {"object": "mug", "candidates": [{"place": place} for place in candidates], **known}
 
 
 def test_a_place_is_open_then_current_then_empty_or_found() -> None:
@@ -33,6 +33,11 @@ def test_a_place_is_open_then_current_then_empty_or_found() -> None:
     assert states(looking | {"found": {"place": "shelf"}})["shelf"] is State.FOUND
     blocked = situation("desk", unreached={"desk": "a closed door"})
     assert states(blocked) == {"desk": State.UNREACHED}
+
+
+def test_where_no_one_thing_is_looked_for_nothing_was_looked_for_in_vain() -> None:
+    counting = situation("desk", "shelf", object=None, visited=["desk"])
+    assert states(counting) == {"desk": State.BEEN, "shelf": State.OPEN}
 
 
 def drawn(path: Path, entity: str) -> list[dict[str, Any]]:

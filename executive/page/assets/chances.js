@@ -1,6 +1,6 @@
 // How likely something is, and who says so, in the person's words.
 
-import { textOr } from "./texts.js";
+import { called } from "./texts.js";
 
 const LEAST = 0.005; // who says less, of several, says nothing
 const NOTED = /(^| )([01]\.\d\d)(?!\d| (?:m|kg|N|s)\b)(?: \((\w+ [01]\.\d\d(?:, \w+ [01]\.\d\d)*)\))?/g;
@@ -10,7 +10,7 @@ export function said(sources) {
   const all = Object.entries(sources).filter(([source]) => source);
   const named = all.filter(([, share]) => share === null || share >= LEAST || all.length === 1);
   return named.map(([source, share], at) => {
-    const name = textOr(`sources.${source}`, source);
+    const name = called("sources", source);
     const one = share !== null && named.length > 1 ? `${name} ${percent(share)}` : name;
     return at < named.length - 1 ? `${one}, ` : one;
   });

@@ -2,8 +2,9 @@
 
 import { inWords } from "./chances.js";
 import { element } from "./elements.js";
+import { labelOf } from "./home.js";
 import { why } from "./robot.js";
-import { spoken, text, textOr } from "./texts.js";
+import { called, text, textOr } from "./texts.js";
 
 const list = document.getElementById("said");
 const scroll = document.getElementById("scroll");
@@ -43,14 +44,15 @@ export function personHasSpoken() {
 }
 
 function item(entry) {
-  const said = entry.stop ? text("stop_said") : entry.text;
+  const who = text(`who.${entry.who}`);
+  const said = entry.stop ? text(`stop_said.${entry.who}`) : entry.text;
   const at = new Date(entry.at * 1000);
   const time = at.toLocaleTimeString([], { hour: "2-digit", minute: "2-digit" });
-  const kinds = entry.stop ? "person stopped" : entry.who;
+  const kinds = entry.stop ? `${entry.who} stopped` : entry.who;
   return element("li", { class: kinds, id: `said-${entry.id}` },
-    element("p", {}, element("span", { class: "unseen" }, `${text(entry.who === "person" ? "you" : "robot")}: `), said),
+    element("p", {}, element("span", { class: "unseen" }, `${who}: `), element("span", { dir: "auto" }, said)),
     element("div", { class: "under" },
-      element("span", { "aria-hidden": "true" }, text(entry.who === "person" ? "you" : "robot")),
+      element("span", { "aria-hidden": "true" }, who),
       element("time", { datetime: at.toISOString() }, time),
       entry.run ? whyButton(entry) : null));
 }
@@ -95,17 +97,22 @@ function reasons(decisions) {
 }
 
 function reason(decision) {
-  const source = decision.source && textOr(`said_by.${decision.source}`, decision.source);
+  const source = decision.source && called("said_by", decision.source);
   const others = decision.alternatives.map((other) =>
     element("li", {}, text("why_not", { what: told(other.what), why_not: told(other.why_not) })));
   return element("li", {},
-    element("strong", {}, `${decision.question}: `), spoken(inWords(decision.answer)),
+    element("strong", {}, `${decision.question}: `), named(decision.answer),
     source ? element("em", {}, ` (${source})`) : null,
     others.length ? element("ul", {}, ...others) : null);
 }
 
+/** Things and places as the robot calls them, chances as the page does. */
+function named(noted) {
+  return inWords(noted).replace(/\w+_\w+/g, (name) => labelOf(name));
+}
+
 /** What the program calls its own parts is said as the person calls them. */
 function told(noted) {
-  return spoken(inWords(noted))
+  return named(noted)
     .replace(/\b(?:the )?(ontology|llm)\b/g, (whole, part) => textOr(`parts.${part}`, whole));
 }

@@ -2,14 +2,14 @@
 
 import { percent, said } from "./chances.js";
 import { drawn, element } from "./elements.js";
-import { spoken, text, textOr } from "./texts.js";
+import { called, spoken, text } from "./texts.js";
 
 const map = document.getElementById("map");
 const list = document.getElementById("places");
 const MARGIN_M = 0.1;
 const LETTER_M = 0.15;
 const ABOVE_M = 0.36;
-const MARKS = { open: "?", current: "→", empty: "✕", unreached: "!", found: "✓" };
+const MARKS = { open: "?", current: "→", empty: "✕", been: "•", unreached: "!", found: "✓" };
 const layers = {};
 let home = null;
 let robotAt = null;
@@ -147,11 +147,11 @@ function sign(state, turn) {
 }
 
 function table({ thing, places }) {
-  const isFound = places.some((place) => place.state === "found");
+  const about = !thing ? "where_to" : places.some(({ state }) => state === "found") ? "where_found" : "where";
   const chances = places.some((place) => place.chance !== null);
   const heads = ["place", ...(chances ? ["chance"] : []), "source"];
   return element("table", {},
-    element("caption", {}, text(isFound ? "where_found" : "where", { thing: spoken(thing) })),
+    element("caption", {}, text(about, { thing: spoken(thing) })),
     element("thead", {}, element("tr", {},
       ...heads.map((head) => element("th", { scope: "col" }, text(head))))),
     element("tbody", {}, ...places.map((place) => row(place, chances))));
@@ -170,7 +170,7 @@ function row({ place, state, chance, sources, why, turn }, chances) {
   const likely = chance === null ? "" : percent(chance);
   return element("tr", { class: state },
     element("th", { scope: "row" }, `${sign(state, turn)} ${labelOf(place)}`,
-      element("small", {}, [textOr(`states.${state}`, state), why].filter(Boolean).join(": "))),
+      element("small", {}, [called("states", state), why].filter(Boolean).join(": "))),
     chances ? element("td", {}, chance === null ? "" : element("meter", {
       value: chance, max: 1, "aria-label": likely }), ` ${likely}`) : null,
     element("td", {}, ...said(sources).flatMap((one) => [element("span", { class: "source" }, one), " "])));

@@ -6,7 +6,7 @@ import * as conversation from "./conversation.js";
 import * as ears from "./ears.js";
 import { labelOf, offerPlaces, showHome, showPlaces, showRobot, showWay } from "./home.js";
 import { OVER, answer, follow, say as send, settle, stop as sendStop } from "./robot.js";
-import { load, spoken, text, textOr } from "./texts.js";
+import { called, load, spoken, text, textOr } from "./texts.js";
 import * as voice from "./voice.js";
 
 const doing = document.getElementById("doing");
@@ -72,7 +72,10 @@ const show = {
   },
   robot: showRobot,
   path: showWay,
-  places: showPlaces,
+  places(found) {
+    showPlaces(found);
+    showProgress();
+  },
   camera: showCamera,
   study(step) {
     ears.drop();
@@ -84,31 +87,41 @@ const show = {
 function showDoing(state) {
   const sentence = state ? sentenceOf(state) : "…";
   if (doing.textContent !== sentence) doing.textContent = sentence;
-  const steps = state?.steps ?? 0;
-  progress.hidden = !steps;
-  if (steps) {
-    Object.assign(progress.querySelector("progress"), { max: steps, value: state.step });
-    progress.querySelector("span").textContent = text("progress", state);
-  }
+  showProgress();
   const ended = ["ready", "rest"].includes(state?.state) && board.outcome;
   last.hidden = !ended;
-  if (ended) last.textContent = textOr(`last.${board.outcome.status}`, board.outcome.status);
+  if (ended) last.textContent = howItEnded(board.outcome);
   suggest();
+}
+
+/** What nobody told the person is told here: what a robot that was stopped still holds, say. */
+function howItEnded({ status, untold }) {
+  return untold ? text("last_untold", { why: untold }) : called("last", status);
+}
+
+/** At which place a search is, of those in the table. */
+function showProgress() {
+  const places = board.doing?.place ? board.places?.places ?? [] : [];
+  const [step, steps] = [places.filter(({ state }) => state !== "open").length, places.length];
+  progress.hidden = steps < 2;
+  if (progress.hidden) return;
+  Object.assign(progress.querySelector("progress"), { max: steps, value: step });
+  progress.querySelector("span").textContent = text("progress", { step, steps });
 }
 
 function sentenceOf(state) {
   if (state.state !== "busy") return text(`doing.${state.state}`);
   const { activity = "" } = state;
   const values = {
-    activity,
+    activity: spoken(activity),
     thing: spoken(state.thing || "thing"),
     held: spoken(state.held ?? ""),
     place: labelOf(state.place ?? ""),
   };
   if (!activity) return text("doing.busy");
-  if (activity === "driving" && state.place) return text("doing.driving_to", values);
+  if (activity === "driving" && state.place) return text(state.thing ? "doing.driving_to" : "doing.driving_to_see", values);
   if (activity === "driving" && state.held) return text("doing.driving_with", values);
-  if (activity === "looking" && state.place) return text("doing.looking_at", values);
+  if (activity === "looking" && state.place) return text(state.thing ? "doing.looking_at" : "doing.looking_around", values);
   if (activity === "handling" && state.held) return text("doing.handling_held", values);
   return textOr(`doing.${activity}`, "") && text(`doing.${activity}`, values) || text("doing.other", values);
 }

@@ -9,7 +9,7 @@ export function asked(item, { points, left, right }) {
   const ends = { left: item.left || left, right: item.right || right };
   const words = item.text || `${ends.left} – ${ends.right}`;
   const optional = item.needed ? null : element("span", { class: "optional" }, ` ${text("study.optional")}`);
-  const legend = element("legend", { class: item.text ? null : "unseen" }, words, optional);
+  const legend = element("legend", { class: item.text ? null : "unseen", dir: "auto" }, words, optional);
   const choice = item.answer === "words" ? written(item, words)
     : points > MOST_BUTTONS ? slid(item, words, points, ends)
     : chosen(item, points, ends);
@@ -18,7 +18,7 @@ export function asked(item, { points, left, right }) {
 }
 
 function written(item, words) {
-  return [element("textarea", { name: item.name, rows: 3, maxlength: 4000, "aria-label": words })];
+  return [element("textarea", { name: item.name, rows: 3, maxlength: 4000, dir: "auto", "aria-label": words })];
 }
 
 function chosen(item, points, ends) {
@@ -62,7 +62,7 @@ function slid(item, words, points, ends) {
 
 function shownEnds({ left, right }, between = null) {
   return element("div", { class: "ends", "aria-hidden": "true" },
-    element("span", {}, left), between, element("span", {}, right));
+    element("span", { dir: "auto" }, left), between, element("span", { dir: "auto" }, right));
 }
 
 /** What was answered, and the items that still have to be. */

@@ -35,7 +35,7 @@ async function done(value, step = shown.step) {
 }
 
 function paragraphs(words) {
-  return words.split(/\n\s*\n/).filter((one) => one.trim()).map((one) => element("p", {}, one.trim()));
+  return words.split(/\n\s*\n/).filter((one) => one.trim()).map((one) => element("p", { dir: "auto" }, one.trim()));
 }
 
 function outOfTime(step) {
@@ -54,7 +54,7 @@ function trouble() {
 
 function showSheet(step) {
   const now = Math.min(step.done + 1, step.steps);
-  const title = element("h1", { id: "sheet-title", tabindex: "-1" }, text(`study.${step.kind}`, step));
+  const title = element("h1", { id: "sheet-title", tabindex: "-1", dir: "auto" }, text(`study.${step.kind}`, step));
   sheet.replaceChildren(
     step.steps ? element("p", { class: "place" }, text("study.place", { ...step, now })) : "",
     step.steps ? element("progress", { max: step.steps, value: step.kind === "thanks" ? step.steps : step.done, "aria-hidden": "true" }) : "",

@@ -39,6 +39,11 @@ export function textOr(key, otherwise) {
   return found === key ? otherwise : found;
 }
 
+/** What a value of a kind is called, such as `not_done` of `last`: if the file does not say, by its name. */
+export function called(kind, value) {
+  return textOr(`${kind}.${value}`, spoken(value));
+}
+
 /** A name as one says it: high_table is "high table". */
 export function spoken(name) {
   return String(name).replaceAll("_", " ");

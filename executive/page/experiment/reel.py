@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
 from executive.events import Intervened
+from executive.language.phrases import spoken
 from executive.records import (
     EventTaken,
     Finished,
@@ -139,7 +140,7 @@ class Reel:
                 self._add(time_s, "mishap", f"{fault}: {text}")
             case Finished(outcome):
                 self.outcome = outcome
-                self._add(time_s, "end", f"{outcome.status}: {outcome.reason}")
+                self._add(time_s, "end", f"{spoken(outcome.status)}: {outcome.reason}")
 
     def _grow(self, tree: TreeShape) -> None:
         index = {node.path: place for place, node in enumerate(tree.nodes)}
@@ -159,7 +160,9 @@ class Reel:
                     track.put(step, state)
         for key, value in tick.situation.items():
             self._facts.setdefault(key, Track()).put(step, value)
-        self.moments.append(Moment(time_s, tick.number, tick.cause, tick.tip, tick.duration_s))
+        self.moments.append(
+            Moment(time_s, tick.number, spoken(tick.cause), tick.tip, tick.duration_s)
+        )
 
     def _add(self, time_s: float, kind: str, text: str, call: int | None = None) -> None:
         said = printable(text[:LONGEST])

@@ -13,6 +13,9 @@ from playwright.sync_api import Browser, Route, expect
 from executive.events import Inbox
 from executive.page.address import Address
 from executive.page.page import Page
+from executive.records import NodeShape, NodeState, Tick, TreeShape
+from executive.testing.bench import run_mission
+from logs.recorder import Stamp
 
 pytestmark = pytest.mark.browser
 
@@ -88,6 +91,43 @@ def test_a_place_may_be_chosen_on_the_map(browser: Browser, talking: Robot) -> N
     assert talking.outcomes[0].location == "high_table"
 
 
+def test_the_header_counts_the_places_of_the_table(browser: Browser) -> None:
+    chances = {"desk": 0.5, "sofa": 0.3, "bed": 0.1, "shelf": 0.05, "cabinet": 0.04}
+    candidates = [{"place": place, "source": "llm"} for place in ("sofa", "bed")]
+    places = [{"place": place, "probability": chance} for place, chance in chances.items()]
+    situation = {
+        "object": "mug",
+        "candidate": candidates[0],
+        "candidates": candidates,
+        "visited": ["desk"],
+        "belief": {"places": places},
+    }
+    node = NodeShape("search", "", "search", "sequence", "Search", activity="searching")
+    tick = Tick(3, "Saw", "search", (NodeState("search", "RUNNING"),), situation, 0.001)
+    with page_alone() as page, opened(browser, page) as tab:
+        for record in (TreeShape((node,)), tick):
+            page.sink.write(Stamp(1.0, 0), record)
+        page.sink.flush()
+        expect(tab.locator("#progress")).to_have_text("Place 2 of 5")
+        expect(tab.locator("#places tbody tr")).to_have_count(5)
+
+
+def test_where_things_are_counted_no_one_thing_is_looked_for(browser: Browser) -> None:
+    records = run_mission("How many fruits are on the desk?", llm=False).notebook.records
+    with page_alone() as page, opened(browser, page) as tab:
+        told: list[str] = []
+        for record in records:
+            page.sink.write(Stamp(1.0, 0), record)
+            if isinstance(record, Tick):
+                page.sink.flush()
+                tab.wait_for_timeout(20)
+                told.append(tab.locator("#doing").inner_text())
+        assert "I am on my way to the desk to have a look." in told
+        assert "I am having a look: desk." in told
+        expect(tab.locator("#places caption")).to_have_text("Places on my way")
+        expect(tab.locator("#places tbody th")).to_have_text("• desk" + "been there")
+
+
 def test_why_is_told_beside_the_sentence(browser: Browser, talking: Robot) -> None:
     with opened(browser, talking.page) as tab:
         wait_until_ready(tab)
@@ -123,6 +163,7 @@ def test_why_is_told_in_the_persons_words(browser: Browser, tmp_path: Path) -> N
             "51 % (known of homes 49 %, language model 2 %), 9 s away",
         ),
         ("0.41 (my_shelf 0.40, anywhere 0.00)", "41 % (my shelf)"),
+        ("cabinet_kitchen 0.20, sugar_box", "cabinet in the kitchen 20 %, sugar box"),
         ("desk 0.62, sofa 0.00", "desk 62 %, sofa < 1 %"),
         (
             "llm ranks places: the ontology has 3 places for it",
@@ -176,7 +217,7 @@ def test_a_question_is_stopped_as_well(browser: Browser, talking: Robot, how: st
             tab.get_by_role("button", name="Stop").click()
         else:
             tab.keyboard.press(how)
-        expect(tab.locator("#last")).to_have_text("Last time: stopped.")
+        expect(tab.locator("#last")).to_have_text("Last time: stopped by the person.")
         expect(tab.locator("#answers")).to_be_hidden()
 
 
@@ -302,6 +343,36 @@ def test_texts_that_are_lost_on_the_way_are_asked_for_again(
         tab.reload()
         wait_until_ready(tab)
     assert lost
+
+
+def test_a_connection_that_falls_silent_is_told_and_made_again(
+    browser: Browser, talking: Robot
+) -> None:
+    with opened(browser, talking.page) as tab:
+        wait_until_ready(tab)
+        tab.clock.install()
+        tab.route("**/events*", lambda route: None)  # never answered
+        tab.reload()
+        expect(tab.locator("#words")).to_have_attribute("placeholder", "Bring the mug")
+        tab.clock.fast_forward(60_000)
+        expect(tab.get_by_role("alert")).to_contain_text("No connection to the robot.")
+        tab.unroute("**/events*")
+        tab.clock.fast_forward(60_000)
+        wait_until_ready(tab)
+        expect(tab.get_by_role("alert")).to_be_hidden()
+
+
+def test_a_stop_that_nobody_answers_is_told_and_sent_again(
+    browser: Browser, talking: Robot
+) -> None:
+    with opened(browser, talking.page) as tab:
+        wait_until_ready(tab)
+        tab.route("**/stop*", lambda route: None)
+        tab.keyboard.press("Escape")
+        expect(tab.get_by_role("alert")).to_contain_text("STOP has not reached the robot")
+        tab.unroute("**/stop*")
+        expect(tab.locator("#said .stopped")).to_have_count(1)
+        expect(tab.get_by_role("alert")).to_be_hidden()
 
 
 def test_a_lost_connection_is_told_and_made_again(browser: Browser) -> None:

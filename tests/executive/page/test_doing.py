@@ -42,10 +42,6 @@ def test_with_a_thing_in_the_hand_no_place_of_the_search_is_told(
     assert not any(now["place"] for now in carrying)
 
 
-def test_the_second_place_is_told_as_the_second(told: list[dict[str, Any]]) -> None:
-    assert {(now["step"], now["steps"]) for now in told if now.get("steps")} == {(2, 2)}
-
-
 def last_places(ticks: list[Tick]) -> dict[str, str]:
     places = Places()
     for tick in ticks:

@@ -63,6 +63,13 @@ def test_the_stop_button_stops_a_mission_and_no_more(talking: Robot) -> None:
     assert talking.outcomes[0].reason == "stopped by the person"
 
 
+def test_a_stop_that_is_sent_again_was_pressed_once(talking: Robot) -> None:
+    for press in (0.1, 0.1, 0.2):
+        assert post(talking.page, "/stop", {"press": press}) == 200
+    stops = [one for one in talking.page.board.since(0) if '"stop":true' in one.json]
+    assert len(stops) == 2
+
+
 def test_at_rest_there_is_nothing_to_stop(talking: Robot) -> None:
     post(talking.page, "/stop", {})
     assert heard(talking.page, "said", who="robot")["text"].startswith("There is nothing to stop")

@@ -1,13 +1,17 @@
 """What pages are told of, they get: the pictures of the camera."""
 
 import json
+from dataclasses import replace
 
 import cv2
 import numpy as np
+import pytest
 
+from executive.events import Broke, Started, StopRequested
 from executive.page.board import Board
 from executive.page.sink import PageSink
-from executive.records import Picture, Seen
+from executive.records import EventTaken, Finished, Picture, Seen
+from executive.testing.bench import run_mission
 from executive.types.geometry import Pose
 from executive.types.perception import Frame, Intrinsics
 from logs.recorder import Stamp
@@ -46,6 +50,23 @@ def test_a_picture_is_shown_with_what_is_recognised_in_it_a_moment_later() -> No
     sink.write(NOW, Seen(2, ()))
     assert told(board) == {"number": 2, "width": 8, "height": 8, "seen": []}
     assert sink.picture(2) is not None
+
+
+@pytest.mark.parametrize(
+    ("cut", "told"),
+    [(None, ""), (StopRequested("the person"), "I hold it"), (Broke(""), "I hold it")],
+)
+def test_how_a_mission_ended_is_told_where_the_robot_could_not(
+    cut: StopRequested | Broke | None, told: str
+) -> None:
+    outcome = replace(run_mission("Find the moon", llm=False).outcome, reason="I hold it.")
+    sink = PageSink(board := Board())
+    sink.write(NOW, EventTaken(Started("Find the moon")))
+    if cut:
+        sink.write(NOW, EventTaken(cut))
+    sink.write(NOW, Finished(outcome))
+    last = next(json.loads(one.json) for one in board.since(0) if one.name == "outcome")
+    assert last["untold"] == told
 
 
 def test_for_two_pages_a_picture_is_made_once() -> None:

@@ -2,7 +2,7 @@
 
 import { element } from "/elements.js";
 import { follow } from "/robot.js";
-import { load, text, textOr } from "/texts.js";
+import { called, load, spoken, text, textOr } from "/texts.js";
 import { past } from "/experiment/past.js";
 import { LATEST, Reel } from "/experiment/reel.js";
 import { stepIn } from "/experiment/wizard.js";
@@ -93,18 +93,23 @@ function parted(parting) {
     element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": where }, element("table", {},
       element("thead", {}, element("tr", {}, ...[text("heads.what"), ...names].map((head) => element("th", { scope: "col" }, head)))),
       element("tbody", {}, ...behavioursFirst(parting.aspects).map((aspect) => element("tr", {},
-        element("th", { scope: "row" }, aspectName(parting, aspect)), element("td", {}, aspect.one), element("td", {}, aspect.other))))))];
+        element("th", { scope: "row" }, aspectName(parting, aspect)), ...[aspect.one, aspect.other].map((one) => element("td", {}, inWords(aspect, one))))))))];
 }
 
 function behavioursFirst(aspects) {
   return [...aspects].sort((one, other) => other.behaviour - one.behaviour);
 }
 
+/** Of a behaviour it begins with the status. */
+function inWords({ behaviour }, said) {
+  return behaviour ? said.replace(/^\w+/, (status) => called("statuses", status)) : said;
+}
+
 /** A behaviour is called by its name, and shown in both trees where it is pressed. */
 function aspectName(parting, aspect) {
   const { what } = aspect;
   if (!aspect.behaviour) return what;
-  return element("button", { type: "button", title: what, onclick: () => aimBoth(parting, aspect) }, what.split("/").at(-1));
+  return element("button", { type: "button", title: what, onclick: () => aimBoth(parting, aspect) }, spoken(what.split("/").at(-1)));
 }
 
 async function act(what, doing) {

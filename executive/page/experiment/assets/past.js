@@ -1,7 +1,7 @@
 // The past runs: found by words and by how they ended.
 
 import { element } from "/elements.js";
-import { text, textOr } from "/texts.js";
+import { called, text } from "/texts.js";
 import { ask } from "/experiment/wire.js";
 
 const table = document.getElementById("runs");
@@ -41,7 +41,7 @@ async function list(open) {
   found.textContent = text("found", told);
   const chosen = status.value;
   status.replaceChildren(element("option", { value: "" }, text("any_status")),
-    ...told.statuses.map((one) => element("option", { value: one }, textOr(`ended.${one}`, one))));
+    ...told.statuses.map((one) => element("option", { value: one }, called("ended", one))));
   status.value = chosen;
   if (!told.runs.length) {
     table.replaceChildren(element("caption", {}, text(told.all ? "none_found" : "no_runs")));
@@ -78,7 +78,7 @@ function row(run, open) {
     element("td", {}, box),
     element("th", { scope: "row" }, element("button", { type: "button", onclick: () => open(run.run) }, when(run.run))),
     element("td", {}, run.command || run.run),
-    element("td", { class: `ended-${run.status}` }, textOr(`ended.${run.status}`, run.status)),
+    element("td", { class: `ended-${run.status}` }, called("ended", run.status)),
     element("td", {}, run.reason),
     element("td", {}, run.time_s === null ? "" : run.time_s.toFixed(1)),
     element("td", {}, run.asked ?? ""));

@@ -1,7 +1,7 @@
 // A mission, live or past: its tree at any tick, what happened up to then, and why.
 
 import { drawn, element } from "/elements.js";
-import { text, textOr } from "/texts.js";
+import { called, text } from "/texts.js";
 import { Tree } from "/experiment/tree.js";
 import { ask } from "/experiment/wire.js";
 
@@ -35,7 +35,7 @@ export class Reel {
     this.strip = drawn("svg", { class: "strip", preserveAspectRatio: "none", "aria-hidden": "true" });
     const all = element("input", { type: "checkbox" });
     all.addEventListener("change", () => this.tree.openAll(all.checked));
-    this.why = element("div", { class: "why" }, element("p", {}, text("choose_behaviour")));
+    this.why = element("div", { class: "why" });
     this.facts = element("dl", { class: "facts" });
     this.lines = element("ol", { class: "lines" });
     this.words = element("input", { type: "search", maxlength: 200, "aria-label": text("find_lines"), placeholder: text("find_lines") });
@@ -47,8 +47,7 @@ export class Reel {
     });
     this.trouble = element("p", { class: "trouble", hidden: true });
     const part = (key, kind, ...inside) => element("section", { class: kind }, element("h3", {}, text(key)), ...inside);
-    const scroll = (key, inside) => element("div", {
-      class: "scroll", tabindex: 0, role: "region", "aria-label": [this.which, text(key)].filter(Boolean).join(": ") }, inside);
+    const scroll = (key, inside) => element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": this.#label(key) }, inside);
     box.replaceChildren(
       this.trouble,
       element("div", { class: "time" },
@@ -68,6 +67,25 @@ export class Reel {
               ...this.kinds.map((one) => element("label", { class: `mark-${one.value}` }, one, ` ${text(`kinds.${one.value}`)}`)), this.words),
             scroll("happened", this.lines)),
           part("known", "of-facts", scroll("known", this.facts)))));
+    this.#tellNothing();
+  }
+
+  /** What a part of it is called, so that it is not taken for that of the run beside it. */
+  #label(key) {
+    return [this.which, text(key)].filter(Boolean).join(": ");
+  }
+
+  /** Beside the tree stands why a behaviour has its status, or a call of the model. */
+  #tell(key, ...children) {
+    this.why.closest("section").querySelector("h3").textContent = text(key);
+    this.why.parentElement.setAttribute("aria-label", this.#label(key));
+    this.why.replaceChildren(...children);
+  }
+
+  /** No behaviour is chosen. */
+  #tellNothing() {
+    this.node = null;
+    this.#tell("why", element("p", {}, text("choose_behaviour")));
   }
 
   /** Show a run, from its beginning, or as it goes on. */
@@ -77,11 +95,10 @@ export class Reel {
     this.shown = -1;
     this.known = 0;
     this.tree.show([]);
-    this.node = null;
+    this.#tellNothing();
     this.live.hidden = !live;
     this.follow.checked = live;
     this.values = new Map();
-    this.why.replaceChildren(element("p", {}, text("choose_behaviour")));
     await this.refresh(run, { anew: 1 });
     if (this.run === run) await this.go(live ? LATEST : 0);
   }
@@ -226,18 +243,18 @@ export class Reel {
     if (!told || run !== this.run || step !== this.shown || node !== this.node) return;
     const shape = this.tree.nodes[node];
     const [first, ...deeper] = told.because;
-    this.why.replaceChildren(
-      element("p", {}, element("strong", {}, shape.name), ` ${textOr(`statuses.${first.status}`, first.status)}`),
+    this.#tell("why",
+      element("p", {}, element("strong", {}, shape.name), ` ${called("statuses", first.status)}`),
       element("p", {}, this.#reason(first, deeper)),
       deeper.length ? element("ol", { class: "because" }, ...deeper.map((one) => element("li", {},
         element("button", { type: "button", onclick: () => this.tree.pick(one.node) }, this.tree.nodes[one.node].name),
-        ` ${textOr(`statuses.${one.status}`, one.status)}${one.message ? `: ${one.message}` : ""}`))) : "",
+        ` ${called("statuses", one.status)}${one.message ? `: ${one.message}` : ""}`))) : "",
       element("p", { class: "shape" }, [shape.kind, shape.class_name, shape.source && text("source_is", { source: shape.source }),
         shape.activity && text("activity_is", { activity: shape.activity })].filter(Boolean).join(" · ")),
       element("h4", {}, text("changes", { count: told.changes.length })),
       element("ol", { class: "changes" }, ...told.changes.map(([at, status, message]) => element("li", {},
         element("button", { type: "button", onclick: () => this.#chosen(at) }, text("at_step", { step: at })),
-        ` ${textOr(`statuses.${status}`, status)}${message ? `: ${message}` : ""}`))));
+        ` ${called("statuses", status)}${message ? `: ${message}` : ""}`))));
   }
 
   #reason(first, deeper) {
@@ -250,9 +267,13 @@ export class Reel {
   }
 
   async #call(call) {
-    const told = await ask("call", { run: this.run, call });
+    const run = this.run;
+    const told = await ask("call", { run, call }).catch(() => null);
+    if (!told || run !== this.run) return;
+    this.tree.drop();
+    this.node = null;
     const turn = ([role, content]) => [element("h4", {}, role), element("pre", {}, content)];
-    this.why.replaceChildren(
+    this.#tell("model_call",
       element("p", {}, element("strong", {}, told.label), ` ${text("call", {
         model: told.model, seconds: told.seconds.toFixed(2), in: told.tokens_in, out: told.tokens_out })}`),
       ...told.messages.flatMap(turn),

@@ -1,7 +1,7 @@
 // A tree of behaviours, of any size: rows are made when they are seen, and changed where they must.
 
 import { element } from "/elements.js";
-import { text } from "/texts.js";
+import { spoken, text } from "/texts.js";
 
 const SIGNS = { RUNNING: "▶", SUCCESS: "✓", FAILURE: "✕", INVALID: "·" };
 const ALWAYS_OPEN = 1; // level down to which a tree is shown though nothing works in it
@@ -20,7 +20,7 @@ export class Tree {
   /** Show these behaviours, parents before their children. */
   show(nodes) {
     this.places = new Map(nodes.map((node, place) => [node.path, place]));
-    this.nodes = nodes.map((node) => ({ ...node, inside: [], up: this.places.get(node.parent) ?? -1 }));
+    this.nodes = nodes.map((node) => ({ ...node, name: spoken(node.name), inside: [], up: this.places.get(node.parent) ?? -1 }));
     this.roots = [];
     this.nodes.forEach((node, place) => {
       if (node.up < 0) this.roots.push(place);
@@ -61,6 +61,12 @@ export class Tree {
     for (const row of [before, this.rows.get(place)]) row?.setAttribute("aria-selected", String(row === this.rows.get(place)));
     this.reveal(place);
     this.choose(place);
+  }
+
+  /** None is chosen any more. */
+  drop() {
+    this.rows.get(this.chosen)?.setAttribute("aria-selected", "false");
+    this.chosen = -1;
   }
 
   /** Scroll the tree, and nothing around it, to a behaviour that is out of sight. */

@@ -13,13 +13,18 @@ export function stepIn(box) {
   const button = (label, act, values = {}) => element("button", { type: "button", onclick: act, ...values }, label);
   const name = field(text("your_name"), { maxlength: 60, placeholder: text("your_name"), value: localStorage.getItem(NAME) ?? "" });
   name.addEventListener("change", () => localStorage.setItem(NAME, name.value));
+  /** Shows whether it is held, and not that it was pressed: so it changes when that is so. */
+  const switching = (deed) => element("input", { type: "checkbox", onclick: (event) => {
+    event.preventDefault();
+    act(deed, { on: event.target.checked });
+  } });
   const said = element("span", { role: "status" });
   const question = element("div", { class: "question" });
-  const hold = element("input", { type: "checkbox" });
+  const hold = switching("hold");
   const held = element("ol", { hidden: true });
   const places = element("select", { id: "send-to" });
   const elsewhere = element("div", {}, element("label", { for: "send-to" }, text("send_to")), places, button(text("send_there"), () => act("place", { place: places.value })));
-  const holdPlaces = element("input", { type: "checkbox" });
+  const holdPlaces = switching("hold_place");
   const choice = element("div", { class: "choice", role: "group", hidden: true });
   const labels = new Map();
 
@@ -33,8 +38,6 @@ export function stepIn(box) {
     }
   }
 
-  hold.addEventListener("change", () => act("hold", { on: hold.checked }));
-  holdPlaces.addEventListener("change", () => act("hold_place", { on: holdPlaces.checked }));
   box.replaceChildren(
     element("h3", {}, text("step_in")), name,
     element("label", {}, hold, text("hold_words")),

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from browsing import DESKTOP, PHONE, opened
-from paging import Robot, heard, robot
-from playwright.sync_api import Browser, Locator, expect
+from browsing import DESKTOP, PHONE, opened, say, wait_until_ready
+from paging import Robot, heard, robot, step_in
+from playwright.sync_api import Browser, Locator, Route, expect
 from playwright.sync_api import Page as Tab
 
 pytestmark = pytest.mark.browser
@@ -145,6 +145,8 @@ def test_two_runs_stand_side_by_side_where_they_part(browser: Browser, busy: Rob
         expect(tab.locator("#parting")).to_contain_text("They part at tick 0")
         expect(tab.locator("#two .moment").first).to_contain_text("Tick 0 of")
         expect(tab.locator("#two .moment").last).to_contain_text("Tick 0 of")
+        for status in tab.locator("#parting tr:has(button) td").all_inner_texts():
+            assert status.startswith(("succeeded", "failed", "running", "not at work"))
         for differs in tab.locator("#parting th button").all()[:2]:
             differs.click()
             chosen = tab.locator("#two [aria-selected=true]")
@@ -152,6 +154,26 @@ def test_two_runs_stand_side_by_side_where_they_part(browser: Browser, busy: Rob
             for side in chosen.all():
                 expect(side).to_be_in_viewport()
         assert not faults(tab)
+
+
+def test_a_call_of_the_model_has_a_heading_of_its_own(browser: Browser, busy: Robot) -> None:
+    line = {"step": 0, "time_s": 0.0, "kind": "model", "text": "rank (0.1 s)", "call": 0}
+    call = {"label": "rank", "messages": [["user", "Where?"]], "answer": "", "scores": []}
+    usage = {"model": "small", "seconds": 0.1, "tokens_in": 3, "tokens_out": 0}
+    with desk(browser, busy) as tab:
+        tab.route("**/experiment/lines*", lambda route: route.fulfill(json=[line]))
+        tab.route("**/experiment/call*", lambda route: route.fulfill(json={**call, **usage}))
+        row(tab, "which object").click()
+        panel, chosen = tab.locator("#live .of-why"), tab.locator("#live [aria-selected=true]")
+        expect(panel).to_contain_text("which object")
+        tab.get_by_role("button", name="Show", exact=True).click()
+        expect(panel.locator("pre")).to_have_text("Where?")
+        expect(panel.locator("h3")).to_have_text("Call of the model")
+        expect(panel.get_by_role("region", name="Call of the model")).to_be_visible()
+        expect(chosen).to_have_count(0)
+        row(tab, "which object").click()
+        expect(panel.locator("h3")).to_have_text("Why")
+        expect(chosen).to_have_count(1)
 
 
 def test_hostile_words_are_words(browser: Browser, busy: Robot) -> None:
@@ -190,7 +212,8 @@ def test_an_experimenter_steps_in(browser: Browser, tmp_path: Path) -> None:
         heard(made.page, "doing", state="ready")
         panel = tab.locator("#wizard")
         panel.get_by_label("Your name").fill("Anna")
-        panel.get_by_label("Hold what the robot says").check()
+        panel.get_by_label("Hold what the robot says").click()
+        expect(panel.get_by_label("Hold what the robot says")).to_be_checked()
         made.page.says("Find the peach")
         sentence = panel.get_by_label("Held sentence 1")
         expect(sentence).to_have_value("Where is the peach?")
@@ -198,7 +221,7 @@ def test_an_experimenter_steps_in(browser: Browser, tmp_path: Path) -> None:
         sentence.fill("Where may it be?")
         panel.get_by_role("button", name="Say it", exact=True).click()
         assert heard(made.page, "said", who="robot")["text"] == "Where may it be?"
-        panel.get_by_label("Hold what the robot says").uncheck()
+        panel.get_by_label("Hold what the robot says").click()
         panel.get_by_label("Answer for the person").fill("on the high table")
         panel.get_by_role("button", name="Send", exact=True).click()
         made.ended(1)
@@ -212,7 +235,8 @@ def test_an_experimenter_holds_where_it_goes(browser: Browser, tmp_path: Path) -
         heard(made.page, "doing", state="ready")
         panel = tab.locator("#wizard")
         panel.get_by_label("Your name").fill("Anna")
-        panel.get_by_label("Hold where it goes next").check()
+        panel.get_by_label("Hold where it goes next").click()
+        expect(panel.get_by_label("Hold where it goes next")).to_be_checked()
         made.page.says("Find the peach at the sofa")
         expect(panel.locator(".choice")).to_contain_text("It would look next: sofa.")
         assert not faults(tab)
@@ -223,3 +247,47 @@ def test_an_experimenter_holds_where_it_goes(browser: Browser, tmp_path: Path) -
         expect(tab.locator("#live .lines .of-intervened").last).to_contain_text(
             "Anna: to high_table, not sofa"
         )
+
+
+def test_a_box_changes_once_when_it_is_pressed(browser: Browser, tmp_path: Path) -> None:
+    follow = """() => {
+        const box = document.querySelector("#wizard input[type=checkbox]");
+        window.seen = [box.checked];
+        const look = () => {
+            if (window.seen.at(-1) !== box.checked) window.seen.push(box.checked);
+            requestAnimationFrame(look);
+        };
+        look();
+    }"""
+    with robot(tmp_path, experimenter=True) as made, desk(browser, made) as tab:
+        heard(made.page, "doing", state="ready")
+        board = made.page.desk.board if made.page.desk else pytest.fail("no desk")
+
+        def meanwhile(route: Route) -> None:
+            """What was on its way to the page when the box was pressed."""
+            board.put("words", {"holds": False, "held": [{"number": 9, "text": "before"}]})
+            board.flush()
+            expect(panel.get_by_label("Held sentence 9")).to_be_visible()
+            tab.wait_for_timeout(100)
+            route.continue_()
+
+        panel = tab.locator("#wizard")
+        tab.route("**/experiment/intervene*", meanwhile)
+        tab.evaluate(follow)
+        panel.get_by_label("Hold what the robot says").click()
+        expect(panel.get_by_label("Hold what the robot says")).to_be_checked()
+        assert tab.evaluate("window.seen") == [False, True]
+
+
+def test_the_person_reads_that_the_experimenter_pressed_stop(
+    browser: Browser, tmp_path: Path
+) -> None:
+    with robot(tmp_path, experimenter=True) as made, opened(browser, made.page) as tab:
+        wait_until_ready(tab)
+        say(tab, "Find a fruit")
+        heard(made.page, "question", kind="which_object")
+        step_in(made.page, "stop")
+        stop = tab.locator("#said .stopped > p")
+        expect(stop).to_have_text("Experimenter: The experimenter pressed Stop")
+        tab.keyboard.press("Escape")
+        expect(stop.last).to_have_text("You: Stop")

@@ -1,13 +1,14 @@
 """A reel shows each tick of a mission as it was, from wherever one comes to it."""
 
 import random
+from dataclasses import replace
 
 import pytest
 from sessions import long_session
 
 from executive.page.experiment.because import because
 from executive.page.experiment.reel import Reel
-from executive.records import Tick, TreeShape
+from executive.records import Finished, Tick, TreeShape
 from executive.testing.bench import Run, run_mission
 
 
@@ -88,6 +89,16 @@ def test_lines_are_those_up_to_a_tick_and_the_end_is_at_the_last(reel: Reel) -> 
     assert first[1].startswith("robot: Which fruit do you mean")
     assert len(first) == 2
     assert reel.lines_to(reel.last, 1, lambda line: line.kind == "end") or not reel.outcome
+
+
+def test_an_end_and_a_cause_are_told_in_words() -> None:
+    mission = run_mission("xyzzy fribble", llm=False)
+    (tick,) = mission.ticks
+    told = replace(tick, cause="StopRequested, Saw")
+    reel = reel_of([mission.notebook.all(TreeShape)[0], told, Finished(mission.outcome)])
+    (end,) = reel.lines_to(reel.last, 1, lambda line: line.kind == "end")
+    assert end.text.startswith("not understood: I do not understand")
+    assert reel.moments[0].cause == "stop requested, saw"
 
 
 def test_of_many_lines_the_latest_are_told(reel: Reel) -> None:

@@ -78,6 +78,45 @@ def test_participants_may_speak_if_the_study_says_so(
         take_part(tab, random.Random(0), try_to_speak)
 
 
+def test_what_a_study_says_is_read_in_the_direction_of_its_language(
+    browser: Browser, tmp_path: Path
+) -> None:
+    words = "מה דעתך על הרובוט?"
+    item = {"name": "free", "text": words, "answer": "words"}
+    asked = {
+        "title": words,
+        "left": words,
+        "right": words,
+        "points": 5,
+        "items": [item, {"name": "one", "text": words}],
+    }
+    given = {
+        "title": words,
+        "consent": words,
+        "after_each": ["own"],
+        "questionnaires": {"own": asked},
+    }
+    study = study_of(1, **given)
+    tasks = (study.tasks[0].model_copy(update={"text": words}),)
+    data = data_in(tmp_path, study.model_copy(update={"tasks": tasks}))
+    directions = """words => [...document.querySelectorAll("h1, p, legend, .ends span")]
+        .filter((one) => one.checkVisibility() && one.textContent.includes(words))
+        .map((one) => getComputedStyle(one).direction)"""
+
+    told: list[str] = []
+
+    def look(tab: Tab) -> None:
+        told.append(tab.evaluate(directions, words))
+
+    def give_up(tab: Tab, chance: random.Random) -> None:
+        end_task(tab, "I give up")
+
+    with led(data, "P01", to_the_end=False) as one, opened(browser, one.page) as tab:
+        take_part(tab, random.Random(0), give_up, until="questionnaire", look=look)
+    rtl = ["rtl"]
+    assert told == [rtl * 2, [], [], rtl, rtl * 5]
+
+
 def test_a_task_is_given_up_while_the_robot_asks_and_the_next_one_begins(
     browser: Browser, tmp_path: Path
 ) -> None:
