@@ -233,6 +233,14 @@ class Settings(BaseModel):
         """What is not given is taken from the environment."""
         return {**_said_in_environment(cls), **given} if isinstance(given, dict) else given
 
+    @field_validator("home", "prompts", "ycb", "memory", "home_state", "runs", mode="before")
+    @classmethod
+    def _named(cls, value: Any) -> Any:
+        """An empty path would be the folder that one is in."""
+        if isinstance(value, str) and not value.strip():
+            raise ValueError("is empty: name one, or leave it out")
+        return value
+
     @field_validator("kb", "fault", mode="before")
     @classmethod
     def _one_alone(cls, value: Any) -> Any:
@@ -371,7 +379,8 @@ def _address(url: str, secret: str = LLM_KEY) -> str:
     except ValueError:
         fits = False
     if not fits or not url.isprintable() or " " in url:
-        raise ValueError("should be an address such as http://host:port/v1")
+        example = "ws://HOST:PORT" if url.startswith("ws") else "http://host:port/v1"
+        raise ValueError(f"should be an address such as {example}")
     if "@" in parts.netloc:
         raise ValueError(f"should be without user and password: set {secret} instead")
     if parts.query or parts.fragment:

@@ -147,24 +147,30 @@ def _why(options: argparse.Namespace) -> Answer:
 
     run = _opened(options.run)
     decisions = why(run)
-    early = "" if run.whole else "\nthe recording ends early"
-    return Answer([asdict(decision) for decision in decisions], why_text(decisions) + early)
+    return Answer([asdict(decision) for decision in decisions], _told(run, why_text(decisions)))
+
+
+def _told(run: "Run", text: str) -> str:
+    """The answer, and that the recording ends early, if it does."""
+    return text if run.whole else f"{text}\nthe recording ends early"
 
 
 def _ticks(options: argparse.Namespace) -> Answer:
     from logs.questions import report
 
-    rows = report.ticks(_opened(options.run))
-    return Answer(rows, report.ticks_text(rows))
+    run = _opened(options.run)
+    rows = report.ticks(run)
+    return Answer(rows, _told(run, report.ticks_text(rows)))
 
 
 def _timeline(options: argparse.Namespace) -> Answer:
     from logs.questions import gantt, report
 
-    spans = report.timeline(_opened(options.run))
+    run = _opened(options.run)
+    spans = report.timeline(run)
     if options.svg:
         _write(options.svg, gantt.svg(spans).encode(), options.run)
-    return Answer([asdict(span) for span in spans], report.timeline_text(spans))
+    return Answer([asdict(span) for span in spans], _told(run, report.timeline_text(spans)))
 
 
 def _write(file: Path, data: bytes, run: Path) -> None:
@@ -180,15 +186,17 @@ def _write(file: Path, data: bytes, run: Path) -> None:
 def _llm(options: argparse.Namespace) -> Answer:
     from logs.questions import report
 
-    rows = report.llm(_opened(options.run))
-    return Answer(rows, report.llm_text(rows))
+    run = _opened(options.run)
+    rows = report.llm(run)
+    return Answer(rows, _told(run, report.llm_text(rows)))
 
 
 def _dialog(options: argparse.Namespace) -> Answer:
     from logs.questions import report
 
-    rows = report.dialog(_opened(options.run))
-    return Answer(rows, report.dialog_text(rows))
+    run = _opened(options.run)
+    rows = report.dialog(run)
+    return Answer(rows, _told(run, report.dialog_text(rows)))
 
 
 def _frames(options: argparse.Namespace) -> Answer:

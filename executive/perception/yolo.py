@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from executive.errors import InputError
+from executive.text import counted
 
 Floats32 = NDArray[np.float32]
 
@@ -90,10 +91,10 @@ def layout_of(
     if ended and (says or not others or _looks_ended(ended[0].rows(outputs, where))):
         return ended[0]
     if not others:
-        shapes = ", ".join(str(output.shape) for output in outputs)
+        shapes = ", ".join(str(output.shape) for output in outputs) or "none"
         raise InputError(
             where,
-            f"its output is {shapes} and its class list has {classes} names",
+            f"its output is {shapes} and its class list has {counted(classes, 'name')}",
             f"(1, {4 + classes}, n), (1, n, {5 + classes}) or (1, n, 6) goes with them",
         )
     return others[0]

@@ -19,6 +19,7 @@ from rdflib.parser import InputSource
 from rdflib.term import Identifier
 
 from executive.errors import ExecutiveError, InputError
+from executive.files import read_bytes
 from executive.text import printable
 from kb.ontology.bounds import base_of_bounded
 from kb.ontology.syntax import SAVE, beyond_turtle, is_xml, turtle_text
@@ -26,7 +27,7 @@ from kb.ontology.syntax import SAVE, beyond_turtle, is_xml, turtle_text
 Triple = tuple[Identifier, Identifier, Identifier]
 """Subject, predicate, object: an IRI, a blank node or a literal, each a str."""
 
-MOST_BYTES = 4_000_000
+MOST_BYTES = 4 * 2**20
 MOST_TRIPLES = 100_000
 LONGEST_FAULT = 200
 _AT = re.compile(r"^None:(\d+):\d+:")
@@ -69,7 +70,7 @@ def read(path: Path) -> OwlFile:
     Raises:
         InputError: if it cannot be opened or is too large, and as `parsed` does.
     """
-    return parsed(path, _content(path, printable(path)))
+    return parsed(path, read_bytes(path, MOST_BYTES))
 
 
 def parsed(path: Path, content: bytes) -> OwlFile:
@@ -80,7 +81,7 @@ def parsed(path: Path, content: bytes) -> OwlFile:
             names Python code to be run.
     """
     if len(content) > MOST_BYTES:
-        fault = f"is larger than {MOST_BYTES // 1_000_000} MB"
+        fault = f"is larger than {MOST_BYTES >> 20} MB"
         raise InputError(printable(path), fault, "give a smaller part of it")
     return _parsed(path, content, path.absolute().as_uri())
 
@@ -132,19 +133,6 @@ class _Read(rdflib.Graph):
             fault = f"says more than {MOST_TRIPLES} things"
             raise InputError(self.where, fault, "give a smaller part of it")
         return self
-
-
-def _content(path: Path, where: str) -> bytes:
-    try:
-        if path.exists() and not path.is_file() and not path.is_dir():
-            raise InputError(where, "cannot be read: it is no file")
-        with path.open("rb") as file:
-            content = file.read(MOST_BYTES + 1)
-    except OSError as error:
-        raise InputError(where, f"cannot be read: {error.strerror}") from None
-    except ValueError as error:
-        raise InputError(where, f"cannot be read: {error}") from None
-    return content
 
 
 def _triples(

@@ -15,6 +15,8 @@ MOST_ESCAPES = 100_000
 
 _XML = re.compile(r"<(?:\?xml|!|rdf:RDF\b|[A-Za-z_][\w.:-]*(?:\s|/>)|[A-Za-z_][\w.-]*>)")
 """Turtle may begin with `<urn:x>`, which is no element, because nothing says what `urn` is."""
+_PACKED = b"\x1f\x8b", b"PK\x03\x04", b"BZh", b"\xfd7zXZ\0"
+"""How files begin that gzip, zip, bzip2 and xz make."""
 _PAGE = re.compile(r"<!doctype\s+html|<html\b", re.IGNORECASE)
 _OTHERS = (
     ("OWL functional syntax", re.compile(r"(?:Prefix|Ontology)\s*\(")),
@@ -36,6 +38,8 @@ def is_xml(content: bytes, where: str) -> bool:
     Raises:
         InputError: if it is neither, with what to save it as.
     """
+    if content.startswith(_PACKED):
+        raise InputError(where, "is compressed", "unpack it, and name the file that was in it")
     start = _without_comments(_decoded(content[:START], "replace"))
     if _PAGE.match(start):
         raise InputError(where, "is a web page (HTML), no ontology", f"get the file itself; {SAVE}")

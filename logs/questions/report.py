@@ -225,7 +225,7 @@ def _cell(value: Any) -> str:
 
 def ticks_text(rows: Iterable[Row]) -> str:
     """A line for each tick and its cause, and one for each behaviour that it changed."""
-    return "\n".join(_tick_text(row) for row in rows)
+    return "\n".join(map(_tick_text, rows)) or "nothing happened: the recording has no ticks"
 
 
 def _tick_text(row: Row) -> str:
@@ -245,16 +245,17 @@ def _one_line(text: str) -> str:
 
 def timeline_text(spans: Iterable[Span]) -> str:
     """A line for each span: from, to, status, behaviour, message."""
-    return "\n".join(
+    lines = (
         f"{s.start_s:9.3f} {s.end_s:9.3f}  {s.status:8} {printable(s.path)}"
         + (f"  ({printable(_one_line(s.message))})" if s.message else "")
         for s in spans
     )
+    return "\n".join(lines) or "no behaviour ran: the recording has no ticks"
 
 
 def llm_text(rows: Iterable[Row]) -> str:
     """A paragraph for each call."""
-    return "\n\n".join(_call_text(row) for row in rows)
+    return "\n\n".join(map(_call_text, rows)) or "no call of the model"
 
 
 def _call_text(row: Row) -> str:
@@ -286,6 +287,5 @@ def _paragraph(title: str, text: str) -> list[str]:
 
 def dialog_text(rows: Iterable[Row]) -> str:
     """A line for each utterance."""
-    return "\n".join(
-        printable(f"{row['time_s']:9.3f}  {row['speaker']:6}  {row['text']}") for row in rows
-    )
+    lines = (f"{row['time_s']:9.3f}  {row['speaker']:6}  {row['text']}" for row in rows)
+    return "\n".join(map(printable, lines)) or "nothing was said"

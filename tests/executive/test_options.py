@@ -51,6 +51,15 @@ def test_a_thing_is_truly_at_one_place(capsys: pytest.CaptureFixture[str]) -> No
     assert "--place mug=sofa: it is mug=desk, too; give one" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("option", ["--home", "--kb", "--runs", "--memory", "--config"])
+def test_an_option_that_is_empty_is_refused_and_does_not_mean_this_folder(
+    option: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit):
+        parsed([option, "", "bring", "a", "mug"])
+    assert f"argument {option}: is empty; name one, or leave it out" in capsys.readouterr().err
+
+
 def test_words_need_no_quotes() -> None:
     assert parsed(["--seed", "1", "bring", "a", "mug"]).words == ["bring", "a", "mug"]
     assert parsed(["--", "-x"]).words == ["-x"]

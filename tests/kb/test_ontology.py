@@ -1,5 +1,6 @@
 """What the knowledge base knows about things and places, and how people may name them."""
 
+import gzip
 import re
 from pathlib import Path
 from xml.etree import ElementTree
@@ -250,6 +251,13 @@ def test_a_broken_file_is_refused(tmp_path, content, fault):
     path = tmp_path / "more.owl"
     path.write_text(content)
     with pytest.raises(InputError, match=fault):
+        Ontology(files=[path])
+
+
+def test_a_compressed_file_is_refused_with_what_to_do(tmp_path):
+    path = tmp_path / "more.owl"
+    path.write_bytes(gzip.compress(b"<rdf:RDF/>"))
+    with pytest.raises(InputError, match="more.owl: is compressed; unpack it, and name the file"):
         Ontology(files=[path])
 
 

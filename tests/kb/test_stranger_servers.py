@@ -126,13 +126,14 @@ def test_a_packed_refusal_and_a_packed_listing_are_read() -> None:
         (streams(word(""), "[DONE]"), "its answer is empty"),
         (streams("[DONE]"), "its answer is empty"),
         (streams(word(" \n", "content_filter")), "its answer is empty (content_filter)"),
+        (says("desk" * 50_001), "its answer is longer than 200000 characters"),
         (
             streams(word(None, "tool_calls", tool_calls=[{"function": {"arguments": "{}"}}])),
             "it called a tool, which it does not have, instead of an answer",
         ),
     ],
 )
-def test_an_answer_with_nothing_in_it_is_a_failure_that_is_told(
+def test_an_answer_with_nothing_or_too_much_in_it_is_a_failure_that_is_told(
     behaviour: Behaviour, reason: str
 ) -> None:
     with talking(behaviour) as talk:

@@ -152,15 +152,34 @@ def test_the_chain_ends_with_the_outcome(run_dir: Path) -> None:
     assert why(Run(run_dir))[-1].question == "outcome"
 
 
-def test_why_says_that_the_recording_of_a_killed_mission_ends_early(
-    run_dir: Path, capsys: pytest.CaptureFixture[str]
+@pytest.mark.parametrize("question", ["why", "ticks", "timeline", "llm", "dialog"])
+def test_an_answer_says_that_the_recording_of_a_killed_mission_ends_early(
+    question: str, run_dir: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(["why", str(run_dir)]) == 0
+    assert main([question, str(run_dir)]) == 0
     assert "ends early" not in capsys.readouterr().out
     file = run_dir / "mission.mcap"
     file.write_bytes(file.read_bytes()[:-20])
-    assert main(["why", str(run_dir)]) == 0
+    assert main([question, str(run_dir)]) == 0
     assert capsys.readouterr().out.endswith("\nthe recording ends early\n")
+
+
+@pytest.mark.parametrize(
+    ("question", "said"),
+    [
+        ("why", "nothing was decided: the recording has no ticks"),
+        ("ticks", "nothing happened: the recording has no ticks"),
+        ("timeline", "no behaviour ran: the recording has no ticks"),
+        ("llm", "no call of the model"),
+        ("dialog", "nothing was said"),
+    ],
+)
+def test_of_a_mission_that_was_killed_before_its_first_tick_it_is_said_that_there_is_nothing(
+    question: str, said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    run = record(tmp_path / "none", [(0.0, TREE)])
+    assert main([question, str(run)]) == 0
+    assert capsys.readouterr().out == f"{said}\n"
 
 
 # --- ticks and summary ---

@@ -22,6 +22,8 @@ BYTES_PER_TOKEN = 3
 """A careful estimate for English: such servers do not offer their tokenizer."""
 _SHOWN = 100
 """Characters of what was not expected."""
+MOST_ANSWERED = 200_000
+"""Characters of an answer: a recording keeps it with each event, call and tick that has it."""
 CLOSING_S = 1.0
 """A thread that takes longer to hang up is left to itself."""
 
@@ -166,6 +168,8 @@ class Server:
             return Failed(used_up(written or self._options.max_tokens))
         if not text.strip():
             return Failed(_no_answer(got, thought=thought))
+        if len(text) > MOST_ANSWERED:
+            return Failed(f"its answer is longer than {MOST_ANSWERED} characters")
         read = got.read
         if read is None:
             read = sum(self.count_tokens(message.content) for message in request.messages)
