@@ -1,4 +1,4 @@
-"""The home, its things and the robot in PyBullet: advances physics and writes down what moves."""
+"""The home, its objects and the robot in PyBullet: steps the physics and records what moves."""
 
 from collections.abc import Collection, Mapping
 
@@ -46,20 +46,21 @@ from sim.robot import SimulatedRobot
 from sim.transforms import FrameTree
 
 COARSE_STEPS, FINE_STEPS = 2, 4
-"""Physics steps per control period: driving with an empty hand, and handling things. With fewer of
-these, what the fingers hold creeps and falls."""
+"""Physics steps per control period: while driving with an empty hand, and while handling objects.
+With fewer fine steps, a held object creeps out of the fingers and falls."""
 TRANSFORMS_EVERY = 6
-"""Control periods between records of what moved: ten a second."""
+"""Control periods between records of moved frames: ten records a second."""
 RESTING_M_S = 0.01
-"""A thing slower than this is at rest."""
+"""An object slower than this is at rest."""
 SETTLING_PERIODS = 60
-"""The longest that the world goes on after the robot is done, for what it let go of."""
+"""After the robot is done, the world runs at most this many control periods more, so that released
+objects come to rest."""
 _SHIFT_M, _TURN = 0.015, 0.2
-"""How far the seed moves things from their spots (metres, radians)."""
+"""The largest random displacement of an object from its spot (metres, radians)."""
 
 
 class PhysicsWorld:
-    """Implements SimulatedHome; owns the simulator, the robot and its senses."""
+    """Implements SimulatedHome; owns the simulator, the robot and its sensors."""
 
     def __init__(
         self,
@@ -77,17 +78,17 @@ class PhysicsWorld:
         """Build the home with the robot in it.
 
         Args:
-            home: what is where.
-            models: the things that may be in it.
-            inbox: where the ends of the robot's goals go.
-            recorder: where movements and pictures go.
-            seed: moves and turns things a little from where the home has them; 0 does not.
-            gui: show PyBullet's window.
-            camera_hz: pictures for the log per second while something moves; 0 for none.
-            injector: what goes wrong by order.
-            left: things that are where they were left, so that the seed leaves them there.
-            beside: whether another process draws the pictures for the log, and what `eyes` see.
-                It cannot where pictures are spoilt by order.
+            home: rooms, furniture, and where objects are.
+            models: the models of all objects that may be in the home, by name.
+            inbox: receives the results of the robot's goals.
+            recorder: receives movements and pictures.
+            seed: of the small random displacement of objects; 0 for none.
+            gui: whether to show PyBullet's window.
+            camera_hz: pictures per second for the log, of simulated time; 0 for none.
+            injector: the injected faults, if any.
+            left: objects that are exactly where they were left; they are not displaced.
+            beside: whether another process draws the pictures of the log and of `eyes`. Ignored if
+                faults spoil pictures: the other process does not apply faults.
         """
         self._home = home
         self._models = models
@@ -118,35 +119,39 @@ class PhysicsWorld:
         self._cameras = Cameras(self._client, self._hardware, injector, self._beside)
         self.camera = self._cameras.looking
         self.eyes = self._cameras.eyes
-        """The same camera, for who needs no more than the picture: it need not be drawn here."""
+        """The same camera for users of colour and depth only; another process may draw for it."""
         self.detector = SimulatedDetector(self._cameras.drawn, self._things)
         self.robot = self._robot()
 
         self._picture_every = round(1 / camera_hz / CONTROL_S) if camera_hz else 0
         self._waits = False
-        """Whether the control period that has begun waits for something to be computed."""
+        """Whether the current control period waits for a computation of the robot."""
         self._periods = 0
-        """Control periods so far."""
+        """Number of control periods so far."""
         self._last_act = 0
-        """The last of them in which the robot was active."""
+        """The last control period in which the robot was active."""
         self._steps = 0
-        """Physics steps in each, as PyBullet is set now; 0 if it has not been set."""
+        """Physics steps per control period that PyBullet is set to; 0 before it is first set."""
         self._owed = 0.0
-        """Time that has passed since the last (s)."""
+        """Time that has passed since the last control period ended (s)."""
 
     # --- SimulatedHome ---
 
     @property
     def busy(self) -> bool:
-        """Whether the robot acts or something is still settling."""
+        """Whether the robot is active, or an object has not come to rest yet."""
         if self.robot.active:
             return True
         return self._periods - self._last_act < SETTLING_PERIODS and self._unsettled()
 
     def advance(self, at_most: float) -> float:
-        """Let at most one control period pass; physics follows in whole periods.
+        """Advance time by `at_most` seconds or one control period, whichever is less.
 
-        No time passes while the robot has something computed: that is waited for, until a stop.
+        Physics advances in whole control periods. While the robot waits for a computation, no
+        time passes: this call waits for the result, or for a stop request.
+
+        Returns:
+            The time that has passed (s).
         """
         if self.robot.computing:
             self._inbox.await_computed(HANGING_S)
@@ -163,7 +168,7 @@ class PhysicsWorld:
         return passed
 
     def close(self) -> None:
-        """Free the simulator."""
+        """Close the simulator and its processes."""
         if self._beside:
             self._beside.close()
         self.robot.close()
@@ -171,7 +176,7 @@ class PhysicsWorld:
         self._client.disconnect()
 
     def describe(self) -> None:
-        """Record the whole scene, where everything is, and what the camera sees from the start."""
+        """Record the scene, all transforms, and a first picture of the camera."""
         extra = self._world_faults.entities() if self._world_faults else ()
         robot = robot_entities(describe_robot())
         entities = (*home_entities(self._home, self._models), *extra, *robot)
@@ -181,7 +186,7 @@ class PhysicsWorld:
             self._recorder.record(Picture(self._cameras.filming.capture()))
 
     def resting_place(self, name: str) -> str | None:
-        """The furniture that an object rests on, by the simulator's truth; None if on none."""
+        """The furniture that an object rests on, by ground truth; None if it rests on none."""
         body = self._body(name)
         if body is None:
             return None
@@ -194,27 +199,27 @@ class PhysicsWorld:
 
     @property
     def held(self) -> str | None:
-        """The object that both fingers touch, by the simulator's truth; None for none."""
+        """The object that both fingers touch, by ground truth; None if there is none."""
         touched = self._hardware.touched()
         return next((name for body, name in self._things.items() if body in touched), None)
 
     @property
     def hardware(self) -> Hardware:
-        """The robot's motors, encoders and touch."""
+        """The robot's motors, encoders and touch sensors."""
         return self._hardware
 
     def robots_frames(self) -> tuple[Transform, ...]:
-        """Where the robot's own links are: what it knows by itself."""
+        """The transforms of the robot's own links, without those of objects."""
         return self._robots_frames.all()
 
     def truth(self, name: str) -> Pose:
-        """Where an object is in `map`, by the simulator's truth: for tests, never for the robot."""
+        """The pose of an object in `map`, by ground truth: for tests, never for the robot."""
         body = self._body(name)
         assert body is not None
         return frame_pose(self._client, body)
 
     def left(self) -> dict[str, Spot]:
-        """Where things stand that are on furniture."""
+        """The spots of all objects that are on furniture."""
         spots = {}
         for body, name in self._things.items():
             if (place := self.resting_place(name)) and name != self.held:
@@ -224,7 +229,7 @@ class PhysicsWorld:
         return spots
 
     def put(self, name: str, furniture: str) -> bool:
-        """Have somebody put a thing on other furniture; whether there is room for it."""
+        """Put an object on other furniture, as a person would; whether that was possible."""
         body = self._body(name)
         if body is None or name == self.held:
             return False
@@ -245,7 +250,7 @@ class PhysicsWorld:
     # --- physics ---
 
     def _control(self) -> None:
-        """Begin a control period, or go on with one in which the robot had something computed."""
+        """Begin a control period, or continue one in which the robot waited for a computation."""
         if not self._waits:
             if self.robot.active:
                 self._last_act = self._periods
@@ -256,7 +261,7 @@ class PhysicsWorld:
         self._waits = self.robot.computing
 
     def _pass_period(self) -> None:
-        """Let physics follow the motors."""
+        """Simulate one control period, and record what is due."""
         if self.robot.handling:
             self._contacts.keep()
         self._use_steps(FINE_STEPS if self.robot.handling else COARSE_STEPS)
@@ -283,13 +288,13 @@ class PhysicsWorld:
         return bool(np.abs(velocities).max(initial=0.0) > RESTING_M_S)
 
     def _time(self) -> float:
-        """The robot's own time (s)."""
+        """The robot's time (s)."""
         return self._periods * CONTROL_S
 
     # --- helpers ---
 
     def _with_faults(self, injector: FaultInjector | None) -> tuple[Hardware, WorldFaults | None]:
-        """The robot, and what happens to it and the world by order."""
+        """The robot's hardware, and the faults of the world if there is an injector."""
         start = self._home.robot_start
         if injector is None:
             return Hardware(self._client, start), None
@@ -297,7 +302,7 @@ class PhysicsWorld:
         return hardware, WorldFaults(self._client, self._home, self._things, hardware, injector)
 
     def _robot(self) -> SimulatedRobot:
-        """What drives, looks and handles with the hardware and its senses."""
+        """Build the robot from its navigator, manipulator and the rest."""
         home, hardware, thinker = self._home, self._hardware, Thinker(self._inbox)
         laser = Laser(self._client, hardware)
         grid = OccupancyGrid.from_home(home)
@@ -311,7 +316,7 @@ class PhysicsWorld:
         )
 
     def _disturb(self, seed: int, left: Collection[str]) -> None:
-        """Move and turn the things a little, once, before anything begins."""
+        """Displace the objects a little at random, once, before the simulation begins."""
         if seed == 0:
             return
         chance = np.random.default_rng(seed)
@@ -329,10 +334,11 @@ class PhysicsWorld:
             )
 
     def _let_sleep(self) -> None:
-        """Things at rest cost nothing until something touches them.
+        """Let bodies sleep: an object at rest then costs nothing until something touches it.
 
-        Contacts are looked for wherever one of two bodies is awake. So what never moves sleeps,
-        too: by itself, two seconds on, by when the contacts of what stands on it are found.
+        Bullet searches for contacts wherever one of two bodies is awake, so fixed bodies have to
+        sleep, too. They fall asleep by themselves after two seconds; by then the contacts of what
+        stands on them are known.
         """
         for body in (*self._things, *self._fixtures):
             self._activate(body, pybullet.ACTIVATION_STATE_ENABLE_SLEEPING)
