@@ -1,4 +1,4 @@
-"""What looks through the robot's eyes in the physics world, for the robot and for the log."""
+"""The robot's cameras in the physics world, for perception and for the log."""
 
 from functools import partial
 from itertools import count
@@ -16,14 +16,16 @@ from sim.pictures.beside import Beside, CameraBeside
 
 
 class Cameras:
-    """All cameras look from the robot's head, and count their pictures together.
+    """All cameras share the optical frame in the robot's head, and number their pictures together.
 
     Attributes:
-        drawn: the camera that things are recognised with; a stand-in for a detector reads the
-            segmentation of its pictures.
-        looking: the same, with what goes wrong by order.
-        eyes: the same, for who needs no more than the picture: it need not be drawn here.
-        filming: for the log: with larger pixels, and not drawn here either, where that can be.
+        drawn: the camera for recognising objects; the simulated detector reads the segmentation of
+            its pictures.
+        looking: the same camera with injected faults.
+        eyes: the same as `looking`, for users of colour and depth only; another process draws for
+            it if there is one.
+        filming: the camera for the log, with fewer pixels; another process draws for it if there
+            is one.
     """
 
     def __init__(
@@ -33,7 +35,14 @@ class Cameras:
         injector: FaultInjector | None,
         beside: Beside | None,
     ) -> None:
-        """Look at the world of `client`; `injector` spoils pictures, `beside` draws them."""
+        """Make the cameras.
+
+        Args:
+            client: the world.
+            hardware: the robot that carries the cameras.
+            injector: spoils pictures with faults; None for no faults.
+            beside: the other process that draws pictures; None to draw all of them here.
+        """
         pose, numbers = partial(hardware.link_pose, "camera_optical"), count()
         self.drawn = SimulatedCamera(client, pose, LOOKING, numbers)
         glancing = SimulatedCamera(client, pose, GLANCING, numbers)
@@ -46,7 +55,7 @@ class Cameras:
             self.filming = CameraBeside(glancing, beside)
 
     def scan(self) -> Floats:
-        """Points in `map` (n, 3) that the depth camera sees now."""
+        """The points (n, 3) that the depth camera sees now (metres, in `map`)."""
         frame = self._glancing.capture()
         lens, depth = frame.intrinsics, frame.depth.astype(np.float64)
         rows, columns = np.nonzero(np.isfinite(depth))

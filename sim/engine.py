@@ -1,6 +1,6 @@
-"""The physics engine, PyBullet. Who needs it takes it from here.
+"""The physics engine, PyBullet; all other modules import it from here.
 
-Its library prints a line on standard error when it is imported, which no command should begin with.
+PyBullet prints a line on standard error when it is imported; this module suppresses it.
 """
 
 import os
@@ -13,14 +13,14 @@ GREETING = b"pybullet build time:"
 
 @contextmanager
 def _without_greeting() -> Iterator[None]:
-    """What is written to standard error meanwhile comes afterwards, less the greeting."""
+    """Buffer standard error, and write it out afterwards without PyBullet's greeting."""
     try:
         kept = os.dup(STDERR)
-    except OSError:  # it is closed: nobody hears anything
+    except OSError:  # standard error is closed
         yield
         return
     said, hold = os.pipe()
-    os.set_blocking(hold, False)  # never wait for a reader: it is us
+    os.set_blocking(hold, False)  # a full pipe must not block: we read it only afterwards
     os.dup2(hold, STDERR)
     try:
         yield

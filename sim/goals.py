@@ -1,4 +1,4 @@
-"""What the simulated robot can be told beside the goals that the executive has: no places."""
+"""Goals of the simulated robot besides those of the executive: with poses instead of places."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -9,12 +9,12 @@ from executive.types.goals import Goal
 
 NO_MOTION = "there is no free way for my arm"
 UNREACHABLE = "my arm does not reach there"
-"""Why a hand or joints are not brought to somewhere."""
+"""Reasons why a motion of the hand or of joints fails."""
 
 
 @dataclass(frozen=True, slots=True)
 class GoTo:
-    """Drive to a pose in `map` (metres, radians), whatever stands there."""
+    """Drive to a pose in `map` (metres, radians), which need not belong to a place."""
 
     x: float
     y: float
@@ -23,7 +23,7 @@ class GoTo:
 
 @dataclass(frozen=True, slots=True)
 class Face:
-    """Point the head at a point of `map` (metres), wherever the robot is."""
+    """Point the head at a point of `map` (metres)."""
 
     point: Vector3
 
@@ -33,10 +33,10 @@ class MoveHand:
     """Bring the point between the fingers to a pose in `base_link`.
 
     Attributes:
-        pose: z points out of the hand, y to a finger.
-        speed: share of the joints' speed limits.
-        straight: in a straight line, or not at all.
-        load: what is in the hand and has to be kept clear of things, as the hand sees it.
+        pose: of the grasp frame; z points out of the hand, y to a finger.
+        speed: fraction of the joints' speed limits.
+        straight: whether the point must move in a straight line; the goal fails if it cannot.
+        load: shapes of the held object in the grasp frame, for collision checks.
     """
 
     pose: Pose
@@ -47,7 +47,10 @@ class MoveHand:
 
 @dataclass(frozen=True, slots=True)
 class MoveJoints:
-    """Bring joints of lift and arm to positions (metres, radians); the rest as above."""
+    """Bring joints of lift and arm to positions (metres, radians), by name.
+
+    `speed` and `load` are as in `MoveHand`.
+    """
 
     joints: Mapping[str, float]
     speed: float
@@ -56,11 +59,11 @@ class MoveJoints:
 
 @dataclass(frozen=True, slots=True)
 class Grip:
-    """Move the fingers to a gap (metres); what is between them is pressed so hard (newtons)."""
+    """Move the fingers to a gap (metres); an object between them is pressed with `force` (N)."""
 
     gap: float
     force: float
 
 
 AnyGoal = Goal | GoTo | Face | MoveHand | MoveJoints | Grip
-"""All that it can be told."""
+"""All goals of the simulated robot."""

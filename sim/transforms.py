@@ -1,4 +1,4 @@
-"""Where every frame of the simulated world is, and which of them moved."""
+"""The transforms of all frames of the simulated world, and which of them have changed."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -10,35 +10,35 @@ from sim.bullet.bodies import MAP, frame_pose
 from sim.engine import BulletClient
 
 _MOVED = 1e-4
-"""Smaller changes (metres, parts of the quaternion) do not count."""
+"""Smaller changes are ignored (metres, components of the quaternion)."""
 _TURNED = 0.9 * _MOVED
-"""Nor does a link whose joints moved by less than this (metres, radians): its pose changes by no
-more than they do."""
+"""Smaller changes of a joint are ignored (metres, radians): the pose of its link changes by no more
+than the joint does."""
 
 
 class FrameTree:
-    """The robot's links, each in the one that carries it, and the things in `map`."""
+    """The robot's links, each in the frame of its parent, and the objects in `map`."""
 
     def __init__(self, client: BulletClient, hardware: Hardware, things: Mapping[int, str]) -> None:
-        """Follow the robot and the things (names by body id)."""
+        """Follow the robot and the objects `things` (names by body id)."""
         self._client = client
         self._hardware = hardware
         self._things = things
         self._last: dict[str, Pose] = {}
         self._joints = [math.inf] * len(hardware.moved_by)
-        """Where each joint was when the pose of what it moves was last returned."""
+        """Position of each joint when the pose of its link was last returned."""
         self._bodies: dict[int, tuple[Vector3, Quaternion]] = {}
-        """Where each thing's body was last, to the bit: most are asleep."""
+        """Last pose of each object's body, exactly: most are asleep, and comparing is cheap."""
 
     def all(self) -> tuple[Transform, ...]:
-        """Every transform, as of now."""
+        """All current transforms."""
         self._last.clear()
         self._joints = [math.inf] * len(self._joints)
         self._bodies.clear()
         return self.moved()
 
     def moved(self) -> tuple[Transform, ...]:
-        """The transforms that differ from when they were last returned."""
+        """The transforms that have changed since they were last returned."""
         return (*self._moved_links(), *self._moved_things())
 
     def _moved_links(self) -> Iterator[Transform]:
@@ -71,7 +71,7 @@ class FrameTree:
         return Pose(*self._client.multiplyTransforms(*back, pose.position, pose.orientation))
 
     def _differs(self, name: str, pose: Pose) -> bool:
-        """Whether a pose differs from the last one of this name; if so, it takes its place."""
+        """Whether a pose differs from the last one of this name; if so, remember it as the last."""
         last = self._last.get(name)
         if last is not None and _near(pose, last):
             return False
@@ -80,7 +80,7 @@ class FrameTree:
 
 
 def _near(one: Pose, other: Pose) -> bool:
-    """Whether two poses are alike; a quaternion and its negative are the same rotation."""
+    """Whether two poses are nearly equal; a quaternion and its negative are the same rotation."""
     if any(abs(a - b) > _MOVED for a, b in zip(one.position, other.position, strict=True)):
         return False
     pairs = list(zip(one.orientation, other.orientation, strict=True))

@@ -1,4 +1,4 @@
-"""The home, its things and the robot in PyBullet: advances physics, and records what moves."""
+"""The home, its objects and the robot in PyBullet: steps the physics and records what moves."""
 
 from collections.abc import Collection, Mapping
 
@@ -46,22 +46,21 @@ from sim.robot import SimulatedRobot
 from sim.transforms import FrameTree
 
 COARSE_STEPS, FINE_STEPS = 2, 4
-"""Physics steps per control period: while driving with an empty hand, and while handling things.
-
-With fewer fine steps, held things creep out of the fingers and fall.
-"""
+"""Physics steps per control period: while driving with an empty hand, and while handling objects.
+With fewer fine steps, a held object creeps out of the fingers and falls."""
 TRANSFORMS_EVERY = 6
-"""Control periods between two records of what moved: ten records a second."""
+"""Control periods between records of moved frames: ten records a second."""
 RESTING_M_S = 0.01
-"""A thing slower than this is at rest."""
+"""An object slower than this is at rest."""
 SETTLING_PERIODS = 60
-"""How long the world goes on at most after the robot's last act, until things are at rest."""
+"""After the robot is done, the world runs at most this many control periods more, so that released
+objects come to rest."""
 _SHIFT_M, _TURN = 0.015, 0.2
-"""How far the seed moves and turns things at most (metres, radians)."""
+"""The largest random displacement of an object from its spot (metres, radians)."""
 
 
 class PhysicsWorld:
-    """Implements `SimulatedHome`: owns the simulator, the robot, its camera and its detector."""
+    """Implements SimulatedHome; owns the simulator, the robot and its sensors."""
 
     def __init__(
         self,
@@ -79,17 +78,17 @@ class PhysicsWorld:
         """Build the home with the robot in it.
 
         Args:
-            home: what is where.
-            models: the things that may be in it.
-            inbox: where the results of the robot's goals go.
-            recorder: where movements and pictures go.
-            seed: moves and turns things a little from where the home has them; 0: not at all.
+            home: rooms, furniture, and where objects are.
+            models: the models of all objects that may be in the home, by name.
+            inbox: receives the results of the robot's goals.
+            recorder: receives movements and pictures.
+            seed: of the small random displacement of objects; 0 for none.
             gui: whether to show PyBullet's window.
-            camera_hz: pictures per second for the log while something moves; 0: none.
-            injector: the faults that were ordered; None: none.
-            left: things that are exactly where they were left; the seed does not move them.
-            beside: whether another process draws the pictures for the log and for `eyes`. It is
-                not used if a fault spoils the pictures.
+            camera_hz: pictures per second for the log, of simulated time; 0 for none.
+            injector: the injected faults, if any.
+            left: objects that are exactly where they were left; they are not displaced.
+            beside: whether another process draws the pictures of the log and of `eyes`. Ignored if
+                faults spoil pictures: the other process does not apply faults.
         """
         self._home = home
         self._models = models
@@ -120,7 +119,7 @@ class PhysicsWorld:
         self._cameras = Cameras(self._client, self._hardware, injector, self._beside)
         self.camera = self._cameras.looking
         self.eyes = self._cameras.eyes
-        """The same camera for those who need only the picture: another process may draw it."""
+        """The same camera for users of colour and depth only; another process may draw for it."""
         self.detector = SimulatedDetector(self._cameras.drawn, self._things)
         self.robot = self._robot()
 
@@ -128,28 +127,31 @@ class PhysicsWorld:
         self._waits = False
         """Whether the current control period waits for a computation of the robot."""
         self._periods = 0
-        """How many control periods have passed."""
+        """Number of control periods so far."""
         self._last_act = 0
-        """The number of the last control period in which the robot was active."""
+        """The last control period in which the robot was active."""
         self._steps = 0
-        """Physics steps per control period for which PyBullet is set; 0: not set yet."""
+        """Physics steps per control period that PyBullet is set to; 0 before it is first set."""
         self._owed = 0.0
-        """Time that has passed since the last control period (s)."""
+        """Time that has passed since the last control period ended (s)."""
 
     # --- SimulatedHome ---
 
     @property
     def busy(self) -> bool:
-        """Whether the robot acts or something is still settling."""
+        """Whether the robot is active, or an object has not come to rest yet."""
         if self.robot.active:
             return True
         return self._periods - self._last_act < SETTLING_PERIODS and self._unsettled()
 
     def advance(self, at_most: float) -> float:
-        """Let up to `at_most` seconds pass, one control period at most; return how many.
+        """Advance time by `at_most` seconds or one control period, whichever is less.
 
-        Physics follows in whole control periods. While the robot waits for a computation, no time
-        passes: this waits for it, too, until a stop.
+        Physics advances in whole control periods. While the robot waits for a computation, no
+        time passes: this call waits for the result, or for a stop request.
+
+        Returns:
+            The time that has passed (s).
         """
         if self.robot.computing:
             self._inbox.await_computed(HANGING_S)
@@ -166,7 +168,7 @@ class PhysicsWorld:
         return passed
 
     def close(self) -> None:
-        """Free the simulator."""
+        """Close the simulator and its processes."""
         if self._beside:
             self._beside.close()
         self.robot.close()
@@ -174,7 +176,7 @@ class PhysicsWorld:
         self._client.disconnect()
 
     def describe(self) -> None:
-        """Record the scene, the pose of everything, and the first picture for the log."""
+        """Record the scene, all transforms, and a first picture of the camera."""
         extra = self._world_faults.entities() if self._world_faults else ()
         robot = robot_entities(describe_robot())
         entities = (*home_entities(self._home, self._models), *extra, *robot)
@@ -184,7 +186,7 @@ class PhysicsWorld:
             self._recorder.record(Picture(self._cameras.filming.capture()))
 
     def resting_place(self, name: str) -> str | None:
-        """The furniture that an object rests on, by the simulator's truth; None if on none."""
+        """The furniture that an object rests on, by ground truth; None if it rests on none."""
         body = self._body(name)
         if body is None:
             return None
@@ -197,27 +199,27 @@ class PhysicsWorld:
 
     @property
     def held(self) -> str | None:
-        """The object that both fingers touch, by the simulator's truth; None for none."""
+        """The object that both fingers touch, by ground truth; None if there is none."""
         touched = self._hardware.touched()
         return next((name for body, name in self._things.items() if body in touched), None)
 
     @property
     def hardware(self) -> Hardware:
-        """The robot's motors, encoders and touch."""
+        """The robot's motors, encoders and touch sensors."""
         return self._hardware
 
     def robots_frames(self) -> tuple[Transform, ...]:
-        """The frames of the robot's own links, which it knows from its encoders."""
+        """The transforms of the robot's own links, without those of objects."""
         return self._robots_frames.all()
 
     def truth(self, name: str) -> Pose:
-        """The true pose of an object in `map`: for tests, never for the robot."""
+        """The pose of an object in `map`, by ground truth: for tests, never for the robot."""
         body = self._body(name)
         assert body is not None
         return frame_pose(self._client, body)
 
     def left(self) -> dict[str, Spot]:
-        """Where the things are that are on furniture."""
+        """The spots of all objects that are on furniture."""
         spots = {}
         for body, name in self._things.items():
             if (place := self.resting_place(name)) and name != self.held:
@@ -227,7 +229,7 @@ class PhysicsWorld:
         return spots
 
     def put(self, name: str, furniture: str) -> bool:
-        """Put a thing on other furniture, as a person would; whether there was room."""
+        """Put an object on other furniture, as a person would; whether that was possible."""
         body = self._body(name)
         if body is None or name == self.held:
             return False
@@ -248,7 +250,7 @@ class PhysicsWorld:
     # --- physics ---
 
     def _control(self) -> None:
-        """Begin a control period, or continue one after a computation of the robot."""
+        """Begin a control period, or continue one in which the robot waited for a computation."""
         if not self._waits:
             if self.robot.active:
                 self._last_act = self._periods
@@ -259,7 +261,7 @@ class PhysicsWorld:
         self._waits = self.robot.computing
 
     def _pass_period(self) -> None:
-        """Step physics through one control period, and record what is due."""
+        """Simulate one control period, and record what is due."""
         if self.robot.handling:
             self._contacts.keep()
         self._use_steps(FINE_STEPS if self.robot.handling else COARSE_STEPS)
@@ -286,13 +288,13 @@ class PhysicsWorld:
         return bool(np.abs(velocities).max(initial=0.0) > RESTING_M_S)
 
     def _time(self) -> float:
-        """The robot's own time (s)."""
+        """The robot's time (s)."""
         return self._periods * CONTROL_S
 
     # --- helpers ---
 
     def _with_faults(self, injector: FaultInjector | None) -> tuple[Hardware, WorldFaults | None]:
-        """The robot's hardware, and the faults of the world that were ordered."""
+        """The robot's hardware, and the faults of the world if there is an injector."""
         start = self._home.robot_start
         if injector is None:
             return Hardware(self._client, start), None
@@ -300,7 +302,7 @@ class PhysicsWorld:
         return hardware, WorldFaults(self._client, self._home, self._things, hardware, injector)
 
     def _robot(self) -> SimulatedRobot:
-        """Build the robot on its hardware: navigation, manipulation and their planning."""
+        """Build the robot from its navigator, manipulator and the rest."""
         home, hardware, thinker = self._home, self._hardware, Thinker(self._inbox)
         laser = Laser(self._client, hardware)
         grid = OccupancyGrid.from_home(home)
@@ -314,7 +316,7 @@ class PhysicsWorld:
         )
 
     def _disturb(self, seed: int, left: Collection[str]) -> None:
-        """Move and turn the things a little, as the seed says."""
+        """Displace the objects a little at random, once, before the simulation begins."""
         if seed == 0:
             return
         chance = np.random.default_rng(seed)
@@ -332,11 +334,11 @@ class PhysicsWorld:
             )
 
     def _let_sleep(self) -> None:
-        """Let things at rest sleep: they cost nothing until something touches them.
+        """Let bodies sleep: an object at rest then costs nothing until something touches it.
 
-        PyBullet checks a pair of bodies for contact if one of the two is awake. So furniture must
-        be able to sleep, too. It falls asleep by itself after two seconds; by then the contacts of
-        the things on it are known.
+        Bullet searches for contacts wherever one of two bodies is awake, so fixed bodies have to
+        sleep, too. They fall asleep by themselves after two seconds; by then the contacts of what
+        stands on them are known.
         """
         for body in (*self._things, *self._fixtures):
             self._activate(body, pybullet.ACTIVATION_STATE_ENABLE_SLEEPING)

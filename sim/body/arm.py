@@ -1,4 +1,4 @@
-"""Moving the lift and the arm along a path of joint positions, smoothly and within their limits."""
+"""Moves the lift and the arm along a path of joint positions, smoothly and within their limits."""
 
 from collections.abc import Callable, Sequence
 
@@ -11,15 +11,17 @@ from sim.body.skill import CONTROL_S, CannotError, Skill, wait_until
 from sim.body.way import Way
 
 SPEED = 0.6
-"""Share of the joints' speed limits that a motion uses."""
+"""Fraction of the joints' speed limits that a motion uses."""
 SLOW = 0.15
+"""The same for careful motions."""
 _RAMP_S = 0.3
 _LAG = 0.2
-"""A joint this far behind (radians, metres) has met something."""
+"""A joint that lags this far behind (radians, metres) has hit something, or is stuck."""
 _OFF = 0.05
-"""A joint that comes to rest this far off did not arrive (radians, metres)."""
+"""A joint that comes to rest this far from its goal has not reached it (radians, metres)."""
 _SAME_WAY = 0.9
-"""Cosine between successive directions in joint space that are passed without stopping."""
+"""The arm passes a way-point without stopping if the cosine between the directions before and after
+it, in joint space, is greater than this."""
 _SETTLED = 0.004
 _SETTLING_S = 1.0
 
@@ -30,16 +32,16 @@ def follow(
     speed: float = SPEED,
     until: Callable[[], bool] = lambda: False,
 ) -> Skill:
-    """Move through joint positions (of `ARM`), starting from where the arm is.
+    """Move the joints of `ARM` along a path, starting from their current positions.
 
     Args:
         hardware: the robot.
-        path: the positions to pass; the last is where the arm comes to rest.
-        speed: share of the joints' speed limits.
-        until: asked once per control period whether to stop where the arm is.
+        path: joint positions (8,) to pass; the arm comes to rest at the last.
+        speed: fraction of the joints' speed limits.
+        until: called once per control period; if it returns True, the arm stops where it is.
 
     Raises:
-        CannotError: if a joint cannot follow.
+        CannotError: if a joint does not follow.
     """
     points = np.array([hardware.arm_positions, *path])
     durations = (np.abs(np.diff(points, axis=0)) / (speed * hardware.arm_speed_limits)).max(axis=1)
@@ -67,7 +69,7 @@ def follow(
 
 
 def _check_lag(hardware: Hardware, wanted: Floats, most: float) -> None:
-    """Give up if a joint is farther than `most` from where it should be."""
+    """Stop the arm and raise CannotError if a joint is farther than `most` from its set point."""
     lag = np.abs(hardware.arm_positions - wanted)
     if lag.max() > most:
         hold(hardware)
@@ -76,13 +78,13 @@ def _check_lag(hardware: Hardware, wanted: Floats, most: float) -> None:
 
 
 def hold(hardware: Hardware) -> None:
-    """Stay where the arm is now."""
+    """Hold the arm at its current position."""
     positions = hardware.arm_positions
     hardware.command_arm(positions, np.zeros(len(positions)))
 
 
 def _corners(points: Floats) -> NDArray[np.bool_]:
-    """Which points, the last included, the joints must come to rest at: where they turn sharply."""
+    """(n,) whether the arm must come to rest at each point: at sharp turns, and at the last."""
     ways = np.diff(points, axis=0)
     ways /= np.maximum(np.linalg.norm(ways, axis=1, keepdims=True), 1e-9)
     straight = (ways[:-1] * ways[1:]).sum(axis=1) > _SAME_WAY
@@ -90,5 +92,5 @@ def _corners(points: Floats) -> NDArray[np.bool_]:
 
 
 def _slowing(left: float) -> float:
-    """The rate from which the end of a motion is met at rest."""
+    """The rate (fraction of full speed) from which one can stop in `left` seconds of the path."""
     return float(max(0.05, np.sqrt(2 * left / _RAMP_S) * 0.7))

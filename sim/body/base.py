@@ -1,4 +1,4 @@
-"""Driving the omnidirectional base along a path, with bounded speed and acceleration."""
+"""Drives the omnidirectional base along a path, with bounded speed and acceleration."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -13,12 +13,12 @@ from sim.body.way import Way
 
 BRAKING = 2.0
 TURN_BRAKING = 4.0
-"""m/s2, rad/s2: for stops that nobody planned."""
+"""Decelerations for unplanned stops (m/s2, rad/s2)."""
 
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """How fast the base may be, and become: m/s, m/s2, rad/s, rad/s2."""
+    """Limits of the base's velocity and acceleration (m/s, m/s2, rad/s, rad/s2)."""
 
     speed: float
     acceleration: float
@@ -28,35 +28,42 @@ class Limits:
 
 FREE = Limits(0.8, 0.8, 1.2, 2.0)
 CARRYING = Limits(0.5, 0.5, 0.8, 1.2)
-"""With something in the hand."""
+"""With an object in the hand."""
 CREEPING = Limits(0.35, 0.5, 0.8, 1.2)
-"""While the arm is out or the furniture near."""
+"""While the arm is extended, or near furniture."""
 
 RADIUS_M = 0.31
-"""Of the base."""
+"""Radius of the base."""
 NEAR = 0.008
 NEAR_ANGLE = np.radians(0.8)
-"""How well it arrives (metres, radians)."""
+"""Goal tolerance (metres, radians)."""
 _LOOKAHEAD_S = 0.2
 _SHORTEST_LOOKAHEAD = 0.08
 _NEXT_BIT = np.arange(0.0, 0.3, 0.01)
-"""Lengths of path ahead (metres) among which the nearest point to the robot is looked for."""
+"""Path lengths ahead (metres) at which the path point nearest to the robot is searched for."""
 _FACE_TRAVEL_BEYOND = 0.9
-"""Farther than this from the end (metres), the robot faces where it goes."""
+"""Farther than this from the end (metres), the robot faces its direction of travel."""
 _OFF_THE_WAY_M = 0.03
-"""How far it may swing out in a corner (metres)."""
+"""How far the base may leave the path in a corner (metres)."""
 _CORNER_M = 0.12
-"""So far before and after a corner it is taken slowly (metres)."""
+"""The speed limit of a corner applies this far before and after it (metres)."""
 _CHECKED_M = 0.1
+"""Distance between the path points that are checked for obstacles."""
 _STUCK_S = 1.5
 _STUCK_DISTANCE, _STUCK_ANGLE = 0.02, 0.03
+"""The robot is stuck if it makes less progress than this (metres, radians) in `_STUCK_S`."""
 
 
 class BlockedError(CannotError):
-    """Something is in the way, seen or met: if met, `bump` (2,) is where in `map` (metres)."""
+    """An obstacle blocks the path.
+
+    Attributes:
+        bump: (2,) the point of contact in `map` (metres), if the robot has hit the obstacle; None
+            if it has only seen it.
+    """
 
     def __init__(self, bump: Floats | None = None) -> None:
-        """Say so."""
+        """The obstacle was hit at `bump`, or only seen."""
         super().__init__("the way is blocked")
         self.bump = bump
 
@@ -68,18 +75,18 @@ def drive(
     limits: Limits = FREE,
     blocked: Callable[[Callable[[], Floats]], bool] = lambda ahead: False,
 ) -> Skill:
-    """Follow way-points (metres, in `map`) and park at the last one, facing `yaw`.
+    """Follow way-points and park at the last one, facing `yaw`.
 
     Args:
         hardware: the robot.
-        path: the way-points.
-        yaw: to face at the end (radians, in `map`).
-        limits: of speed and acceleration.
-        blocked: asked once per control period whether the way is, of which its argument returns the
-            points (n, 2) that are ahead; the robot then brakes.
+        path: the way-points (metres, in `map`).
+        yaw: final heading (radians, in `map`).
+        limits: limits of velocity and acceleration.
+        blocked: called once per control period; if it returns True, the robot brakes. Its argument
+            is a function that returns the points (n, 2) of the remaining path (metres, in `map`).
 
     Raises:
-        BlockedError: if it does not get ahead, or the way is blocked.
+        BlockedError: if `blocked` says so, or the robot makes no progress.
     """
     follower = _Follower(np.array([hardware.base_pose[:2], *path]), yaw, limits)
     progress, state = _Progress(), hardware.base_state
@@ -99,12 +106,12 @@ def drive(
 
 
 def fastest(points: Floats, along: Floats, limits: Limits) -> Floats:
-    """(n,) the speeds (m/s) of who follows way-points, from rest to rest.
+    """The speed profile (n,) of a path that is followed from rest to rest (m/s).
 
     Args:
         points: (m, 2) the way-points (metres).
-        along: (n,) lengths of way at which the speed is wanted (metres).
-        limits: of speed and acceleration.
+        along: (n,) path lengths from the start at which the speeds are wanted (metres).
+        limits: limits of velocity and acceleration.
     """
     ends = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))))
     most = np.full(len(along), limits.speed)
@@ -134,20 +141,25 @@ def brake(hardware: Hardware) -> Skill:
 
 
 def _rim(pose: Floats, velocity: Floats) -> Floats:
-    """The point (2,) of the robot's rim in `map` that is foremost on its way."""
+    """The foremost point (2,) of the base's rim in its direction of travel (metres, in `map`)."""
     speed = max(float(np.linalg.norm(velocity[:2])), 1e-6)
     rim: Floats = pose[:2] + RADIUS_M * velocity[:2] / speed
     return rim
 
 
 class _Progress:
-    """Notices when the way that is left gets no shorter and the robot does not turn either."""
+    """Detects that the robot is stuck: the remaining path gets no shorter, and it does not turn."""
 
     def __init__(self) -> None:
         self._way, self._turn, self._since = np.inf, 0.0, 0.0
 
     def stuck(self, way: float, turn: float) -> bool:
-        """Whether there was no progress for a while; called once per control period."""
+        """Whether there was no progress for `_STUCK_S`; called once per control period.
+
+        Args:
+            way: length of the remaining path (metres).
+            turn: remaining turn (radians).
+        """
         self._since += CONTROL_S
         if way < self._way - _STUCK_DISTANCE:
             self._way, self._since = way, 0.0
@@ -157,7 +169,7 @@ class _Progress:
 
 
 class _Follower:
-    """Pursues a point that runs ahead on the path."""
+    """Pure pursuit: drives toward a look-ahead point on the path."""
 
     def __init__(self, points: Floats, yaw: float, limits: Limits) -> None:
         self._points = points
@@ -172,23 +184,23 @@ class _Follower:
         self._command = np.zeros(3)
 
     def arrived(self, pose: Floats, velocity: Floats) -> bool:
-        """Whether it stands at the end."""
+        """Whether the base is at rest at the goal, within its tolerance."""
         off = _length(pose[:2] - self._points[-1])
         still = np.abs(velocity).max() < 0.03
         return bool(still and off < NEAR and abs(_turn(pose[2], self._yaw)) < NEAR_ANGLE)
 
     def left(self, pose: Floats) -> tuple[float, float]:
-        """How far it is to the end along the path (metres), and the turn to its yaw (radians)."""
+        """The length of the remaining path (metres) and the angle to the final yaw (radians)."""
         way = self._end - self._done + _length(self._way.at(self._done) - pose[:2])
         return way, abs(_turn(pose[2], self._yaw))
 
     def ahead(self) -> Floats:
-        """Points (n, 2) of the way that is left, _CHECKED_M apart."""
+        """Points (n, 2) of the remaining path, _CHECKED_M apart (metres, in `map`)."""
         lengths = np.append(np.arange(self._done, self._end, _CHECKED_M), self._end)
         return self._way.at_each(lengths)
 
     def velocity(self, pose: Floats) -> Floats:
-        """The next velocity command in `map`."""
+        """The next velocity command (3,) in `map` (m/s, m/s, rad/s) at a pose (x, y, yaw)."""
         self._advance(pose[:2])
         ahead = max(_SHORTEST_LOOKAHEAD, _LOOKAHEAD_S * _length(self._command[:2]))
         toward = self._way.at(self._done + ahead) - pose[:2]
@@ -208,7 +220,7 @@ class _Follower:
         return self._command
 
     def _before_corners(self) -> float:
-        """The speed (m/s) from which one can still slow down for the corners that are ahead."""
+        """The speed (m/s) from which the base can still slow down for all corners ahead."""
         ways = self._ends[1:-1] - self._done
         near = ways > -_CORNER_M
         ways = (ways[near] - _CORNER_M).clip(min=0.0)
@@ -221,14 +233,14 @@ class _Follower:
         return self._yaw
 
     def _advance(self, position: Floats) -> None:
-        """Move the done length on to the nearest point of the next bit of path."""
+        """Advance `_done` to the nearest point of the next part of the path."""
         ahead = np.minimum(self._done + _NEXT_BIT, self._end)
         off = self._way.at_each(ahead) - position
         self._done = float(ahead[np.sqrt((off * off).sum(axis=1)).argmin()])
 
 
 def _corner_speeds(points: Floats, acceleration: float) -> Floats:
-    """How fast (m/s) each corner between the ends can be taken without leaving the way too far."""
+    """The speed (m/s) at each corner for which the base stays within `_OFF_THE_WAY_M`."""
     ways = np.diff(points, axis=0)
     headings = np.arctan2(ways[:, 1], ways[:, 0])
     turns = np.abs(np.remainder(np.diff(headings) + np.pi, 2 * np.pi) - np.pi)
@@ -238,12 +250,12 @@ def _corner_speeds(points: Floats, acceleration: float) -> Floats:
 
 
 def _slowing(distance: float, fastest: float, deceleration: float) -> float:
-    """The speed from which one can still stop within a distance, gentler for the last bit."""
+    """The speed from which one can still stop within a distance; lower close to the end."""
     return min(fastest, 0.9 * math.sqrt(2 * deceleration * distance), 4.0 * distance)
 
 
 def _toward(now: Floats, wanted: Floats, acceleration: float, turn_acceleration: float) -> Floats:
-    """The wanted velocity, or as near to it as one control period allows."""
+    """The wanted velocity, or the nearest one that can be reached in one control period."""
     change = wanted - now
     size = _length(change[:2])
     if size > acceleration * CONTROL_S:
@@ -255,10 +267,10 @@ def _toward(now: Floats, wanted: Floats, acceleration: float, turn_acceleration:
 
 
 def _turn(start: float, end: float) -> float:
-    """The shorter turn from one yaw to another (radians)."""
+    """The signed angle from one yaw to another, in [-pi, pi) (radians)."""
     return float((end - start + math.pi) % math.tau - math.pi)
 
 
 def _length(vector: Floats) -> float:
-    """What `np.linalg.norm` says, to the bit."""
+    """The same as `np.linalg.norm`, bit for bit, but faster for short vectors."""
     return math.sqrt(vector.dot(vector))

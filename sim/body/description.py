@@ -1,7 +1,7 @@
-"""The robot's description: the base of `assets/mobile_base.urdf` with a Franka Panda on its lift.
+"""The robot's URDF: the base of `assets/mobile_base.urdf` with a Franka Panda on its lift.
 
-The Panda comes from pybullet_data. Its collision meshes are drawn too: they have a fiftieth of the
-triangles, and the simulator's renderer pays for each.
+The Panda comes from pybullet_data. Its collision meshes also serve as visual meshes: they have a
+fiftieth of the triangles, and rendering time grows with their number.
 """
 
 from importlib.resources import files
@@ -17,21 +17,22 @@ from executive.records import Entity, Shape
 from executive.types.geometry import Pose, Vector3
 
 _PADS = {"lateral_friction": "1.0", "spinning_friction": "0.006", "rolling_friction": "0.002"}
-"""Rubber on the finger tips: a pad 18 mm wide also resists turning (metres, as PyBullet has it)."""
+"""Rubber pads on the finger tips. A pad 18 mm wide also resists turning; PyBullet takes spinning
+and rolling friction in metres."""
 _FINGER_BOXES = (
     ((0.0176, 0.0142, 0.0347), (0.0, 0.0071, 0.03635)),
     ((0.0208, 0.0236, 0.0190), (0.0, 0.0144, 0.0095)),
 )
-"""Size and middle of the boxes that a finger is made of for contacts, in the left finger's frame.
+"""Collision boxes of a finger: size and centre (metres) in the left finger's frame.
 
-The convex hull of the finger's mesh now and then gets a contact with its normal the wrong way round
-from Bullet, and what it held sticks to it. Two boxes are handled exactly.
+For the convex hull of the finger's mesh, Bullet sometimes finds a contact with a reversed normal;
+the held object then sticks to the finger. With boxes the contacts are exact.
 """
 _WHITE: Color = (0.92, 0.92, 0.90, 1.0)
 
 
 def describe_robot() -> ElementTree.Element:
-    """The whole robot as a URDF tree whose mesh files are absolute paths."""
+    """The URDF of the whole robot; the file names of meshes are absolute paths."""
     robot = ElementTree.fromstring(files("sim").joinpath("assets/mobile_base.urdf").read_text())
     robot.extend(_panda())
     mount = ElementTree.SubElement(robot, "joint", name="arm_mount", type="fixed")
@@ -41,14 +42,14 @@ def describe_robot() -> ElementTree.Element:
 
 
 def write_description(directory: Path) -> Path:
-    """Write the robot as `robot.urdf` into the directory, for simulators that load files."""
+    """Write the URDF to `robot.urdf` in a directory, and return its path."""
     path = directory / "robot.urdf"
     ElementTree.ElementTree(describe_robot()).write(path)
     return path
 
 
 def robot_entities(robot: ElementTree.Element) -> tuple[Entity, ...]:
-    """What there is to draw of each link, in the link's frame."""
+    """The visual shapes of each link, in the link's frame."""
     colors = {m.get("name"): _color(m) for m in robot.findall("material")}
     entities = []
     for link in robot.findall("link"):
@@ -77,7 +78,7 @@ def _panda() -> ElementTree.Element:
 
 
 def _replace_collision(finger: ElementTree.Element) -> None:
-    """Give a finger boxes to touch with, mirrored if its mesh is."""
+    """Replace a finger's collision mesh by boxes, mirrored if the mesh is."""
     mesh = finger.find("collision")
     assert mesh is not None
     mirror = -1 if mesh.find("origin") is not None else 1

@@ -1,7 +1,7 @@
-"""The robot's motors, encoders and touch: all that the skills may use to act and to feel.
+"""The robot's motors, encoders and touch sensors; skills act and measure only through these.
 
-Nothing here sets a position. Motors have the torque and speed limits of the description, and the
-world's physics decides what comes of a command.
+Commands set no position directly: they go to motors with the torque and speed limits of the URDF,
+and the physics decides what comes of them.
 """
 
 import tempfile
@@ -21,27 +21,28 @@ ARM = ("lift", *(f"panda_joint{i}" for i in range(1, 8)))
 """The joints that move the hand: the lift (metres), then the arm's seven (radians)."""
 BASE = ("base_x", "base_y", "base_yaw")
 _DRIVE_LINKS = ("drive_x", "drive_y")
-"""How the simulator moves the base; no part of the robot."""
+"""Links that exist only to move the base in the simulator; no part of the robot."""
 FINGERS = ("panda_finger_joint1", "panda_finger_joint2")
 HEAD = ("head_pan", "head_tilt")
 
 FOLDED: Floats = np.array([0.08, 0.0, -0.5, 0.0, -3.0, 0.0, 2.5, 0.785])
-"""The arm over the base, hand pointing down, a thing in it upright: how the robot drives."""
+"""Joint positions of `ARM` for driving: arm over the base, hand pointing down, a held object
+upright."""
 
 FINGER_FORCE = 70.0
-"""The most that each finger presses (newtons), as with the real hand."""
+"""Maximum force of each finger (newtons), as on the real hand."""
 FINGER_TRAVEL = 0.04
-"""How far each finger opens from the middle (metres)."""
+"""How far each finger opens from the centre (metres)."""
 
 STILL = {"base": 5e-3, "arm": 2e-2, "fingers": 2e-3, "head": 2e-2}
-"""A part whose joints are all slower than this is at rest (m/s, rad/s)."""
+"""A part is at rest if all of its joints are slower than this (m/s, rad/s)."""
 
 
 class Hardware:
-    """A robot standing in a PyBullet world."""
+    """The robot in a PyBullet world."""
 
     def __init__(self, client: BulletClient, start: tuple[float, float, float]) -> None:
-        """Put the robot, folded, at (x, y, yaw) in `map`."""
+        """Load the robot at (x, y, yaw) in `map`, with the arm folded."""
         self._client = client
         with tempfile.TemporaryDirectory() as directory:
             path = write_description(Path(directory))
@@ -50,7 +51,7 @@ class Hardware:
         self.links: dict[str, int] = {"map": -1}
         self.parents: dict[str, str] = {}
         self.moved_by: list[str] = []
-        """The link that each joint moves, by the joints' indices in PyBullet."""
+        """The link that each joint moves, by the joint's index in PyBullet."""
         self._force: dict[str, float] = {}
         self._speed: dict[str, float] = {}
         self._read_joints()
@@ -62,7 +63,7 @@ class Hardware:
         self._reset(start)
 
     def _read_joints(self) -> None:
-        """Index links and joints by name, with the joints' limits and what carries each link."""
+        """Index links and joints by name, with the joints' limits and each link's parent."""
         carriers = {-1: "map"}
         for index in range(self._client.getNumJoints(self.body)):
             info = self._client.getJointInfo(self.body, index)
@@ -76,7 +77,7 @@ class Hardware:
         self.parents["base_link"] = "map"
 
     def _couple_fingers(self) -> None:
-        """Make the fingers mirror each other, as the gear in the real hand does."""
+        """Make the fingers mirror each other, like the gear in the real hand."""
         gear = self._client.createConstraint(
             self.body,
             self._fingers[0],
@@ -90,7 +91,7 @@ class Hardware:
         self._client.changeConstraint(gear, gearRatio=-1, erp=0.1, maxForce=2 * FINGER_FORCE)
 
     def _reset(self, start: tuple[float, float, float]) -> None:
-        """Set up the pose that the world begins with, and hold it."""
+        """Set the start pose, and hold it."""
         for joints, positions in ((self._base, start), (self._arm, FOLDED)):
             for joint, position in zip(joints, positions, strict=True):
                 self._client.resetJointState(self.body, joint, position)
@@ -103,7 +104,7 @@ class Hardware:
 
     @property
     def base_pose(self) -> Floats:
-        """(x, y, yaw) of `base_link` in `map`; yaw counts on past pi."""
+        """(x, y, yaw) of `base_link` in `map` (metres, radians); yaw is not wrapped at pi."""
         return self.base_state[0]
 
     @property
@@ -113,11 +114,11 @@ class Hardware:
 
     @property
     def base_state(self) -> tuple[Floats, Floats]:
-        """Pose and velocity of the base at one moment."""
+        """Pose and velocity of the base at the same moment."""
         return self._states(self._base)
 
     def joint_states(self) -> dict[str, tuple[float, float]]:
-        """Position and velocity of each joint of head, lift, arm and fingers (m, rad; a second)."""
+        """(position, velocity) of each joint of head, lift, arm, fingers (m, m/s; rad, rad/s)."""
         names = (*HEAD, *ARM, *FINGERS)
         positions, velocities = self._states([self._joints[name] for name in names])
         return dict(
@@ -126,26 +127,26 @@ class Hardware:
 
     @property
     def arm_positions(self) -> Floats:
-        """Where the joints of `ARM` are."""
+        """Positions of the joints of `ARM` (metres, radians)."""
         return self._states(self._arm)[0]
 
     @property
     def arm_speed_limits(self) -> Floats:
-        """What the joints of `ARM` can do (m/s, rad/s)."""
+        """Speed limits of the joints of `ARM` (m/s, rad/s)."""
         return np.array([self._speed[name] for name in ARM])
 
     @property
     def fingers_still(self) -> bool:
-        """Whether neither finger moves any more."""
+        """Whether both fingers are at rest."""
         return bool(np.abs(self._states(self._fingers)[1]).max() < STILL["fingers"])
 
     @property
     def gap(self) -> float:
-        """How far the pads are from each other (metres)."""
+        """Distance between the finger pads (metres)."""
         return float(self._states(self._fingers)[0].sum())
 
     def moving(self) -> tuple[str, ...]:
-        """Which parts move: of base, arm, fingers and head."""
+        """Those of base, arm, fingers and head that are not at rest."""
         parts = (self._base, self._arm, self._fingers, self._head)
         return tuple(
             name
@@ -159,40 +160,40 @@ class Hardware:
         return self._states(self._head)[0]
 
     def link_pose(self, link: str) -> Pose:
-        """Where a link's frame is in `map`."""
+        """The pose of a link's frame in `map`."""
         state = self._client.getLinkState(self.body, self.links[link], computeForwardKinematics=1)
         return Pose(tuple(state[4]), tuple(state[5]))
 
     def link_poses(self, links: Collection[str]) -> dict[str, Pose]:
-        """Where the frames of these links are in `map`."""
+        """The poses of these links' frames in `map`."""
         states = self._client.getLinkStates(
             self.body, [self.links[name] for name in links], computeForwardKinematics=1
         )
         return {n: Pose(tuple(s[4]), tuple(s[5])) for n, s in zip(links, states, strict=True)}
 
     def all_positions(self) -> list[float]:
-        """Where all joints are, by their indices in PyBullet (metres, radians)."""
+        """Positions of all joints, by their indices in PyBullet (metres, radians)."""
         joints = range(len(self.moved_by))
         return [state[0] for state in self._client.getJointStates(self.body, joints)]
 
     # --- touch ---
 
     def touched(self) -> set[int]:
-        """The bodies that both fingers touch."""
+        """The ids of the bodies that both fingers touch."""
         contacts = self._client.getContactPoints(bodyA=self.body)
         left, right = ({c[2] for c in contacts if c[3] == finger} for finger in self._fingers)
         return (left & right) - {self.body}
 
     @property
     def weight(self) -> float:
-        """What the force sensor in the wrist carries: the hand and what is in it (newtons)."""
+        """The force on the wrist's sensor: weight of the hand and of what it holds (newtons)."""
         force = self._client.getJointState(self.body, self.links["panda_hand"])[2][:3]
         return float(np.linalg.norm(force))
 
     # --- motors ---
 
     def command_base(self, velocity: Floats) -> None:
-        """Drive with this velocity (m/s, m/s, rad/s) in `map`."""
+        """Drive with a velocity (m/s, m/s, rad/s) in `map`."""
         self._command(self._base, BASE, p.VELOCITY_CONTROL, targetVelocities=list(velocity))
 
     def park(self) -> None:
@@ -201,7 +202,7 @@ class Hardware:
         self._command(self._base, BASE, p.POSITION_CONTROL, targetPositions=positions)
 
     def command_arm(self, positions: Floats, velocities: Floats) -> None:
-        """Servo the joints of `ARM` to positions, with the velocities fed forward."""
+        """Servo the joints of `ARM` to positions, with velocities as feed-forward."""
         self._command(
             self._arm,
             ARM,
@@ -212,7 +213,7 @@ class Hardware:
         )
 
     def command_head(self, pan: float, tilt: float) -> None:
-        """Turn the camera to pan (left) and tilt (down), radians."""
+        """Turn the head to pan (positive: left) and tilt (positive: down), in radians."""
         for joint, name, position in zip(self._head, HEAD, (pan, tilt), strict=True):
             self._client.setJointMotorControl2(
                 self.body,
@@ -224,7 +225,7 @@ class Hardware:
             )
 
     def open_fingers(self, gap: float) -> None:
-        """Move the fingers to this gap between the pads (metres)."""
+        """Move the fingers until the pads are `gap` metres apart."""
         for joint in self._fingers:
             self._client.setJointMotorControl2(
                 self.body,
@@ -236,7 +237,7 @@ class Hardware:
             )
 
     def squeeze(self, force: float) -> None:
-        """Close the fingers until something stops them, and keep pressing (newtons each)."""
+        """Close the fingers until something stops them; each keeps pressing with `force` (N)."""
         for joint in self._fingers:
             self._client.setJointMotorControl2(
                 self.body,

@@ -1,4 +1,4 @@
-"""Aiming the head's camera."""
+"""Aims the head's camera."""
 
 import math
 
@@ -11,10 +11,10 @@ _AT_MOST_S = 4.0
 
 
 def look_at(hardware: Hardware, target: Vector3) -> Skill:
-    """Turn the camera until a point in `map` is in the middle of its picture.
+    """Turn the head until a point in `map` is in the centre of the picture.
 
     Raises:
-        CannotError: if the head does not get there.
+        CannotError: if the head does not reach the angles in time.
     """
     pan, tilt = aim(hardware, target)
     hardware.command_head(pan, tilt)
@@ -28,13 +28,13 @@ def look_at(hardware: Hardware, target: Vector3) -> Skill:
 
 
 def hold_head(hardware: Hardware) -> None:
-    """Look on to where the head looks now."""
+    """Hold the head at its current angles."""
     pan, tilt = (float(value) for value in hardware.head_positions)
     hardware.command_head(pan, tilt)
 
 
 def aim(hardware: Hardware, target: Vector3) -> tuple[float, float]:
-    """Pan and tilt (radians) that bring a point in `map` to the middle of the picture."""
+    """Pan and tilt (radians) that bring a point in `map` to the centre of the picture."""
     x, y, z = hardware.link_pose("camera_link").position
     ahead, left = target[0] - x, target[1] - y
     pan = math.remainder(math.atan2(left, ahead) - float(hardware.base_pose[2]), math.tau)

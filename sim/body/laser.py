@@ -1,4 +1,4 @@
-"""The planar laser scanner in the base: how far it is to whatever stands around the robot."""
+"""The planar laser scanner in the base: distances to the obstacles around the robot."""
 
 from dataclasses import dataclass
 
@@ -11,34 +11,34 @@ from sim.engine import BulletClient
 RAYS = 180
 RANGE_M = 3.5
 HEIGHT_M = 0.12
-"""Above the floor; what is lower than this, the laser does not see."""
+"""Height of the scan plane above the floor; the laser does not see lower objects."""
 _START_M = 0.32
-"""The rays begin just outside of the base (metres from its middle)."""
+"""The rays begin just outside the base (metres from its centre)."""
 _DIRECTIONS = np.linspace(-np.pi, np.pi, RAYS, endpoint=False)
 _UNITS = np.column_stack((np.cos(_DIRECTIONS), np.sin(_DIRECTIONS)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Scan:
-    """One turn of the laser.
+    """One scan, over the full circle.
 
     Attributes:
-        middle: (2,) where the scanner was in `map` (metres).
-        distances: (RAYS,) metres to the first thing on each ray; infinite where there is none. The
-            rays go all around counter-clockwise, from -pi on, in `map`.
+        middle: (2,) position of the scanner in `map` (metres).
+        distances: (RAYS,) distance to the first hit of each ray (metres); infinite if there is
+            none. Rays go counter-clockwise in `map`, from the angle -pi.
     """
 
     middle: Floats
     distances: Floats
 
     def hits(self) -> Floats:
-        """(n, 2) points in `map` that were hit (metres)."""
+        """The points (n, 2) that were hit (metres, in `map`)."""
         met = np.isfinite(self.distances)
         points: Floats = self.middle + _UNITS[met] * self.distances[met, None]
         return points
 
     def free_to(self, points: Floats) -> Floats:
-        """How far (metres) it was seen to be free in the directions of points (n, 2)."""
+        """(n,) how far it is free in the directions of points (n, 2) in `map` (metres)."""
         away = points - self.middle
         angles = np.arctan2(away[:, 1], away[:, 0])
         rays = np.rint((angles + np.pi) / (2 * np.pi) * RAYS).astype(int) % RAYS
@@ -47,15 +47,15 @@ class Scan:
 
 
 class Laser:
-    """Measures by casting rays into the simulated world; exact, as far as it reaches."""
+    """Casts rays into the simulated world; exact up to RANGE_M."""
 
     def __init__(self, client: BulletClient, hardware: Hardware) -> None:
-        """Scan around the robot."""
+        """Scan the world of `client` around the robot."""
         self._client = client
         self._hardware = hardware
 
     def scan(self) -> Scan:
-        """Look all around once."""
+        """Take one scan."""
         middle = self._hardware.base_pose[:2]
         ends = np.full((2, RAYS, 3), HEIGHT_M)
         ends[0, :, :2] = middle + _START_M * _UNITS

@@ -1,8 +1,8 @@
-"""What every skill of the robot is made of.
+"""The robot's skills as generators, and helpers that all of them use.
 
-A skill is a generator that commands the motors and yields once per control period; the world lets
-physics pass in between. It ends by returning, or raises CannotError. What takes long it hands to a
-Thinker: until that is computed it yields, too, but no time passes.
+A skill is a generator that commands the motors and yields once per control period; the world steps
+the physics in between. It ends by returning, or by raising CannotError. Long computations go to a
+Thinker: the skill yields until the result is there, and no simulated time passes meanwhile.
 """
 
 from collections.abc import Callable, Generator
@@ -19,27 +19,27 @@ CONTROL_S = 1 / 60
 
 
 class CannotError(Exception):
-    """The skill gave up; the message is a clause for the person: "the way is blocked"."""
+    """A skill has failed; the message is a clause for the person: "the way is blocked"."""
 
 
 class Thinker:
-    """Has computed what a skill wants to know and what takes long, beside the control periods."""
+    """Runs the long computations of skills on a worker thread, outside the control loop."""
 
     def __init__(self, inbox: Inbox) -> None:
-        """Think of nothing."""
+        """Start the worker; `inbox` tells when a result is there."""
         self._inbox = inbox
         self._worker = Worker("robot")
         self._pending: Computation[Any] | None = None
 
     @property
     def busy(self) -> bool:
-        """Whether a skill waits for an answer; no time shall pass meanwhile."""
+        """Whether a skill waits for a result; simulated time must not pass meanwhile."""
         return self._pending is not None
 
     def compute(self, work: Callable[[], T]) -> Generator[None, None, T]:
-        """Return what `work` returns; it must not touch the simulated world.
+        """Run `work` on the worker thread, and return its result.
 
-        A skill that is closed gives it up.
+        `work` must not use the simulated world. Closing the skill abandons the computation.
         """
         pending: Computation[T] = self._inbox.compute(self._worker, work, self._done)
         self._pending = pending
@@ -53,7 +53,7 @@ class Thinker:
         return pending.result()
 
     def close(self) -> None:
-        """Wait a little for what was given up."""
+        """Close the worker; waits a little for computations that were given up."""
         self._worker.close()
 
     def _done(self, _: Computation[Any]) -> None:
@@ -70,13 +70,13 @@ def wait_until(true: Callable[[], bool], at_most: float) -> Generator[None, None
 
 
 def pause(seconds: float) -> Skill:
-    """Let some time pass."""
+    """Wait, in simulated time."""
     for _ in range(round(seconds / CONTROL_S)):
         yield
 
 
 def attempt(skill: Skill) -> Generator[None, None, CannotError | None]:
-    """Run a skill; return its failure, if any, so that the robot can tidy up before it reports."""
+    """Run a skill; return its failure, if any, so that the caller can clean up first."""
     try:
         yield from skill
     except CannotError as failure:

@@ -31,8 +31,9 @@ VIEWED_WALL_HEIGHT_M = 0.5
 """Walls are cut off at this height for the viewer, who looks in from above."""
 FURNITURE_FRICTION = 0.8
 ROLLING_FRICTION = 5e-4
-"""Resistance of round things (metres, as PyBullet has it): a ball left alone comes to rest."""
+"""Rolling and spinning friction (metres, PyBullet's unit), so that a rolling ball comes to rest."""
 SETTLING_STEPS = 120
+"""Physics steps in which placed objects come to rest."""
 
 PERSON_SHAPES = (
     Shape("cylinder", (0.30, 0.30, 0.80), (0.22, 0.25, 0.33, 1.0), Pose((0.0, 0.0, 0.40))),
@@ -51,17 +52,17 @@ def create_body(
     center_of_mass: Vector3 = (0.0, 0.0, 0.0),
     look: Shape | None = None,
 ) -> int:
-    """Build one rigid body out of shapes and return its id.
+    """Create one rigid body from shapes, and return its id.
 
     Args:
         client: the world.
-        shapes: at most 16 (PyBullet's limit), in the body's frame; no meshes.
+        shapes: primitives in the body's frame, at most 16 (PyBullet's limit); no meshes.
         pose: the body's frame in `map`.
-        mass: kilograms; 0 for what never moves.
+        mass: in kilograms; 0 for fixed bodies.
         friction: lateral friction coefficient.
-        center_of_mass: in the body's frame. PyBullet reports this point as the body's position:
-            `frame_pose` gives the frame.
-        look: the mesh that is drawn instead of the shapes.
+        center_of_mass: in the body's frame (metres). PyBullet reports this point as the body's
+            position; `frame_pose` returns the pose of the frame.
+        look: a mesh to draw instead of the shapes.
     """
     body: int = client.createMultiBody(
         mass,
@@ -86,7 +87,7 @@ def create_body(
 
 
 def _arrays(shapes: Sequence[Shape], purpose: Literal["collision", "visual"]) -> dict[str, Any]:
-    """Primitives as PyBullet takes them."""
+    """PyBullet's arguments for primitive shapes."""
     return {
         "shapeTypes": [_SHAPE_TYPES[shape.kind] for shape in shapes],
         "halfExtents": [[length / 2 for length in shape.size] for shape in shapes],
@@ -98,7 +99,7 @@ def _arrays(shapes: Sequence[Shape], purpose: Literal["collision", "visual"]) ->
 
 
 def _mesh(client: BulletClient, look: Shape) -> int:
-    """A visual shape with the texture that the OBJ file's material names."""
+    """Create a visual shape from an OBJ file, with the texture that its material names."""
     mesh: int = client.createVisualShape(
         p.GEOM_MESH,
         fileName=look.mesh,
@@ -110,7 +111,7 @@ def _mesh(client: BulletClient, look: Shape) -> int:
 
 
 def frame_pose(client: BulletClient, body: int) -> Pose:
-    """Where the frame of a body made by `create_body` is in `map`."""
+    """The pose in `map` of the frame of a body made by `create_body`."""
     position, orientation = client.getBasePositionAndOrientation(body)
     center_of_mass = client.getDynamicsInfo(body, -1)[3]
     origin = position - Rotation.from_quat(orientation).apply(center_of_mass)
@@ -118,7 +119,7 @@ def frame_pose(client: BulletClient, body: int) -> Pose:
 
 
 def put_at(client: BulletClient, body: int, pose: Pose) -> None:
-    """Have a body made by `create_body` be at rest with its frame at a pose in `map`."""
+    """Put a body made by `create_body` at rest with its frame at a pose in `map`."""
     center_of_mass = client.getDynamicsInfo(body, -1)[3]
     middle = Rotation.from_quat(pose.orientation).apply(center_of_mass) + pose.position
     client.resetBasePositionAndOrientation(body, middle, pose.orientation)
@@ -126,14 +127,14 @@ def put_at(client: BulletClient, body: int, pose: Pose) -> None:
 
 
 def build_home(client: BulletClient, home: Home) -> dict[int, str]:
-    """Put up floors, walls, furniture and the person; returns each body's name by its id."""
+    """Create floors, walls, furniture and the person; return each body's name by its id."""
     return {create_body(client, shapes, pose): name for name, shapes, pose in _fixtures(home)}
 
 
 def place_objects(
     client: BulletClient, home: Home, models: Mapping[str, ObjectModel]
 ) -> dict[int, str]:
-    """Put the home's objects where they are at the start and let them settle.
+    """Create the home's objects at their start poses, and let them come to rest.
 
     Returns:
         Each object's name by its body id.
@@ -145,13 +146,13 @@ def place_objects(
 
 
 def settle(client: BulletClient) -> None:
-    """Let things that were put somewhere come to rest."""
+    """Step the physics until placed objects have come to rest."""
     for _ in range(SETTLING_STEPS):
         client.stepSimulation()
 
 
 def create_object(client: BulletClient, model: ObjectModel, pose: Pose) -> int:
-    """Build one of the objects, its frame at `pose` in `map`, and return its id."""
+    """Create an object with its frame at `pose` in `map`, and return its id."""
     return create_body(
         client,
         model.shapes,
@@ -164,7 +165,7 @@ def create_object(client: BulletClient, model: ObjectModel, pose: Pose) -> int:
 
 
 def home_entities(home: Home, models: Mapping[str, ObjectModel]) -> tuple[Entity, ...]:
-    """The home for the viewer: what is fixed in `map`, each object in a frame of its own name."""
+    """The home for the viewer: fixed parts in `map`, each object in a frame of its own name."""
     low = home.model_copy(update={"wall_height": min(home.wall_height, VIEWED_WALL_HEIGHT_M)})
     fixed = [Entity(name, MAP, _moved(shapes, pose)) for name, shapes, pose in _fixtures(low)]
     movable = [Entity(name, name, models[name].shown) for name in home.objects]
@@ -172,7 +173,7 @@ def home_entities(home: Home, models: Mapping[str, ObjectModel]) -> tuple[Entity
 
 
 def _fixtures(home: Home) -> Iterator[tuple[str, tuple[Shape, ...], Pose]]:
-    """Name, shapes and pose of everything in the home that never moves."""
+    """Name, shapes (in the body's frame) and pose (in `map`) of all fixed bodies of the home."""
     for room in home.rooms:
         left, lower, right, upper = room.rectangle
         color = FLOOR_COLORS.get(room.kind, FLOOR_COLOR)
@@ -188,5 +189,5 @@ def _fixtures(home: Home) -> Iterator[tuple[str, tuple[Shape, ...], Pose]]:
 
 
 def _moved(shapes: Sequence[Shape], pose: Pose) -> tuple[Shape, ...]:
-    """Shapes of a frame that is at `pose`, seen from the parent frame."""
+    """Shapes of a frame at `pose`, transformed to the parent frame."""
     return tuple(replace(shape, pose=carried_by(pose, shape.pose)) for shape in shapes)

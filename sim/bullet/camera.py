@@ -14,7 +14,9 @@ from sim.bullet.rendering import DAYLIGHT, NEAR_M, Light, Rendering, View, draw
 from sim.engine import BulletClient
 
 FAR_M = 15.0
+"""Range of the camera."""
 KEPT_SEGMENTATIONS = 4
+"""The segmentations of this many pictures are kept, for detectors that read them."""
 _OPTICAL_TO_OPENGL = np.diag([1.0, -1.0, -1.0, 1.0])
 """OpenGL cameras look along -z with y up, optical frames along z with y down."""
 
@@ -26,9 +28,9 @@ def pinhole(width: int, height: int, hfov: float = np.radians(65.0)) -> Intrinsi
 
 
 LOOKING = pinhole(640, 480)
-"""The camera that things are recognised with."""
+"""The camera for recognising objects."""
 GLANCING = pinhole(320, 240)
-"""The same with pixels four times as large, where a picture must cost little."""
+"""The same camera with a quarter of the pixels, for pictures that must be cheap."""
 
 
 def render(
@@ -38,14 +40,14 @@ def render(
     far: float = FAR_M,
     light: Light = DAYLIGHT,
 ) -> Rendering:
-    """Draw the world, up to `far` metres, as a camera sees it whose optical frame is at `pose`."""
+    """Draw what a camera with its optical frame at `pose` in `map` sees, up to `far` metres."""
     return draw(client, view_from(pose, intrinsics, far, light))
 
 
 def view_from(
     pose: Pose, intrinsics: Intrinsics, far: float = FAR_M, light: Light = DAYLIGHT
 ) -> View:
-    """What a camera shows whose optical frame is at `pose` in `map`."""
+    """The view of a camera with its optical frame at `pose` in `map`."""
     return View(
         intrinsics.width,
         intrinsics.height,
@@ -66,9 +68,13 @@ class SimulatedCamera:
         lens: Intrinsics = LOOKING,
         numbers: Iterator[int] | None = None,
     ) -> None:
-        """Look through the camera whose optical frame in `map` is given by `pose`.
+        """Make a camera.
 
-        Cameras that share `numbers` count their pictures together.
+        Args:
+            client: the world.
+            pose: returns the current pose of the optical frame in `map`.
+            lens: size of the pictures, and intrinsics.
+            numbers: gives each picture its number; cameras that share it count together.
         """
         self._client = client
         self.pose = pose
@@ -77,7 +83,7 @@ class SimulatedCamera:
         self._segmentations: OrderedDict[int, NDArray[np.int32]] = OrderedDict()
 
     def capture(self) -> Frame:
-        """The picture of this moment."""
+        """Take a picture now."""
         pose = self.pose()
         seen = render(self._client, pose, self.lens)
         frame = Frame(next(self.numbers), seen.color, seen.depth, self.lens, pose)
@@ -87,31 +93,33 @@ class SimulatedCamera:
         return frame
 
     def segmentation(self, number: int) -> NDArray[np.int32]:
-        """Body ids of a late picture (height, width): the renderer's truth, for stand-ins only.
+        """The ground-truth segmentation of a recent picture: body ids (height, width).
+
+        Only for detectors that stand in for a learned one.
 
         Raises:
-            KeyError: if the picture is older than the last KEPT_SEGMENTATIONS.
+            KeyError: if the picture is not one of the last KEPT_SEGMENTATIONS.
         """
         return self._segmentations[number]
 
 
 class SimulatedDetector:
-    """Stands in for a learned detector: it reads the renderer's segmentation, so it is never wrong.
+    """Stands in for a learned detector: it reads the ground-truth segmentation, so it never errs.
 
-    It knows which pixel belongs to which body and therefore neither confuses nor overlooks anything
-    that shows enough pixels. Where a thing is in space it does not know: that comes from the depth.
+    It neither confuses nor overlooks objects that show enough pixels. Positions in space are not
+    taken from the simulator: they are computed from the depth, as with any detector.
     """
 
     def __init__(
         self, camera: SimulatedCamera, names: Mapping[int, str], minimum_pixels: int = 160
     ) -> None:
-        """Recognise the bodies in `names` (name by body id) that show `minimum_pixels`."""
+        """Recognise the bodies in `names` (names by body id) that show `minimum_pixels` or more."""
         self._camera = camera
         self._names = names
         self._minimum_pixels = minimum_pixels
 
     def detect(self, frame: Frame) -> tuple[Detection, ...]:
-        """All known things in the picture, all with confidence 1, those with most pixels first."""
+        """All known objects in the picture, with confidence 1, in order of falling pixel count."""
         segmentation = self._camera.segmentation(frame.number)
         bodies, counts = np.unique(segmentation, return_counts=True)
         large_first = sorted(zip(counts.tolist(), bodies.tolist(), strict=True), reverse=True)
@@ -131,7 +139,7 @@ def _detection(label: str, mask: NDArray[np.bool_]) -> Detection:
 
 
 def _view_matrix(pose: Pose) -> tuple[float, ...]:
-    """`map` in OpenGL's camera frame, column by column."""
+    """The transform from `map` to OpenGL's camera frame, 4 x 4, column-major."""
     camera_to_map = np.eye(4)
     camera_to_map[:3, :3] = Rotation.from_quat(pose.orientation).as_matrix()
     camera_to_map[:3, 3] = pose.position
@@ -140,10 +148,10 @@ def _view_matrix(pose: Pose) -> tuple[float, ...]:
 
 
 def _projection_matrix(intrinsics: Intrinsics, far: float) -> tuple[float, ...]:
-    """OpenGL's projection of a pinhole camera, column by column.
+    """OpenGL's projection of a pinhole camera, 4 x 4, column-major.
 
-    TinyRenderer samples a pixel at its lower left corner, not at its middle: column u is drawn at
-    2 u / width - 1 and row v at 1 - 2 (v + 1) / height.
+    TinyRenderer samples a pixel at its lower left corner, not at its centre: column u is drawn at
+    2 u / width - 1 and row v at 1 - 2 (v + 1) / height (normalised device coordinates).
     """
     width, height = intrinsics.width, intrinsics.height
     projection = np.zeros((4, 4))

@@ -1,4 +1,4 @@
-"""Opening a PyBullet world without its chatter on stdout, where only results belong."""
+"""Opens a PyBullet world, and keeps PyBullet's own messages off stdout, which is for results."""
 
 import os
 import sys
@@ -15,20 +15,20 @@ GRAVITY_M_S2 = 9.81
 
 
 def connect(gui: bool = False) -> BulletClient:
-    """An empty world with gravity, computed in this process; `gui` opens PyBullet's own window."""
+    """Open an empty world with gravity in this process; `gui` also opens PyBullet's window."""
     keep_what_is_freed()
     with _without_stdout():
         client = BulletClient(p.GUI if gui else p.DIRECT)
     for name, function in vars(p).items():
         if isbuiltin(function) and name != "disconnect":
-            # The client itself looks each function up anew, whenever one is called.
+            # For speed: BulletClient itself looks up the function again at each call.
             setattr(client, name, partial(function, physicsClientId=client._client))
     client.setGravity(0.0, 0.0, -GRAVITY_M_S2)
     return client
 
 
 def aim_window(client: BulletClient, corners: tuple[float, float, float, float]) -> None:
-    """Have PyBullet's own window look down on left, lower, right, upper of `map` (metres)."""
+    """Aim the camera of PyBullet's window at a part of `map`: left, lower, right, upper (m)."""
     left, lower, right, upper = corners
     client.configureDebugVisualizer(p.COV_ENABLE_GUI, 0)
     client.resetDebugVisualizerCamera(
@@ -41,7 +41,7 @@ def aim_window(client: BulletClient, corners: tuple[float, float, float, float])
 
 @contextmanager
 def _without_stdout() -> Iterator[None]:
-    """PyBullet's C code prints its arguments: send the descriptor nowhere meanwhile."""
+    """Redirect file descriptor 1 to /dev/null: PyBullet's C code prints its arguments there."""
     if sys.stdout is not None:
         sys.stdout.flush()
     try:

@@ -1,8 +1,9 @@
-"""Contacts of what the robot turns in its hand, kept right.
+"""Keeps contact normals right while the robot turns a held object.
 
-Bullet keeps up to four points of a contact, each with its normal as it was in the world when the
-point was found. Turn what the fingers hold by half a circle, and an old point's normal has become
-the wrong way round: the fingers cannot open any more. So contacts are found anew on the way.
+Bullet caches up to four points of a contact. The normal of each stays as it was in the world frame
+when the point was found. After the robot has turned a held object by half a circle, an old normal
+points the wrong way, and the fingers cannot open any more. So old contacts are dropped on the way,
+and Bullet finds them again.
 """
 
 import math
@@ -12,24 +13,24 @@ from executive.types.geometry import Quaternion
 from sim.engine import BulletClient
 
 _TURN = math.radians(10.0)
-"""A contact whose thing has turned by more is found anew."""
+"""The contacts of an object are dropped when it has turned by more than this (radians)."""
 _MOVABLE_GROUP, _WITH_ALL = 1, -1
-"""Bullet's collision group and mask of whatever moves."""
+"""Bullet's collision group and mask of movable bodies."""
 
 
 class FreshContacts:
-    """Has the contacts between the robot and things found anew whenever these have turned."""
+    """Drops the contacts between the robot and objects that have turned since they were found."""
 
     def __init__(self, client: BulletClient, robot: int, things: Collection[int]) -> None:
-        """Watch these bodies of a world."""
+        """Watch the contacts between a robot and objects, all given by their body ids."""
         self._client = client
         self._robot = robot
         self._things = things
         self._found: dict[int, Quaternion] = {}
-        """How each thing that the robot touches was turned when its contacts were found."""
+        """The orientation of each touched object when its contacts were found."""
 
     def keep(self) -> None:
-        """Forget what is no longer right; called once per control period."""
+        """Drop the contacts of objects that have turned; called once per control period."""
         contacts = self._client.getContactPoints(bodyA=self._robot)
         touched = {contact[2] for contact in contacts}.intersection(self._things)
         turned = {body: self._orientation(body) for body in touched}
@@ -44,11 +45,11 @@ class FreshContacts:
         return orientation
 
     def _forget(self, body: int) -> None:
-        """Bullet forgets a body's contacts when it is put in a group, be it the one it is in."""
+        """Drop a body's contacts: Bullet does so when a collision group is set, even the same."""
         self._client.setCollisionFilterGroupMask(body, -1, _MOVABLE_GROUP, _WITH_ALL)
 
 
 def _angle(one: Quaternion, other: Quaternion) -> float:
-    """The turn between two orientations (radians)."""
+    """The angle between two orientations (radians)."""
     along = abs(sum(a * b for a, b in zip(one, other, strict=True)))
     return 2 * math.acos(min(along, 1.0))

@@ -1,6 +1,6 @@
-"""Draws a PyBullet world with its TinyRenderer, which computes on the CPU.
+"""Draws a PyBullet world with its TinyRenderer, which runs on the CPU.
 
-Of ours it imports the engine alone, for it is also used by a process that does nothing else.
+Of this project it imports only the engine, so that the process that only draws starts fast.
 """
 
 from collections.abc import Sequence
@@ -14,21 +14,23 @@ from sim.engine import BulletClient
 from sim.engine import pybullet as p
 
 NEAR_M = 0.05
+"""Distance of the near clipping plane."""
 BACKGROUND = -1
+"""The body id of pixels that show nothing."""
 LARGE = 640
-"""Pictures with so many columns are drawn in two parts, which two processes can do at once."""
+"""Pictures of this width or more are drawn in two parts, which two processes can draw at once."""
 
 
 @dataclass(frozen=True, slots=True)
 class Light:
-    """One lamp at infinity, and what comes from everywhere.
+    """One lamp at infinity, and ambient light.
 
     Attributes:
         direction: towards the lamp, in `map`.
         color: of the lamp; red, green, blue in [0, 1].
-        ambient: share of a surface's colour that it shows without the lamp.
-        diffuse: share that the lamp adds where it shines straight on it.
-        specular: strength of reflections.
+        ambient: coefficient of ambient light.
+        diffuse: coefficient of diffuse reflection of the lamp.
+        specular: coefficient of specular reflection of the lamp.
     """
 
     direction: tuple[float, float, float] = (-0.4, -0.3, 1.0)
@@ -43,15 +45,15 @@ DAYLIGHT = Light()
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """From where and how a picture is drawn.
+    """The camera and the light of a picture.
 
     Attributes:
-        width: pixels in a row.
-        height: rows.
-        matrix: `map` in OpenGL's camera frame, column by column.
-        projection: OpenGL's, column by column.
-        far: how far one sees (metres).
-        light: what it is lit by.
+        width: in pixels.
+        height: in pixels.
+        matrix: transform from `map` to OpenGL's camera frame, 4 x 4, column-major.
+        projection: OpenGL's projection matrix, 4 x 4, column-major.
+        far: distance of the far clipping plane (metres).
+        light: the light in the scene.
     """
 
     width: int
@@ -64,12 +66,12 @@ class View:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Rendering:
-    """What the renderer says of one picture.
+    """The renderer's output for one picture.
 
     Attributes:
         color: (height, width, 3) uint8, RGB.
-        depth: (height, width) float32, metres along the optical axis, infinite where nothing is.
-        segmentation: (height, width) int32, body ids; BACKGROUND where nothing is.
+        depth: (height, width) float32, metres along the optical axis; infinite for background.
+        segmentation: (height, width) int32, body ids; BACKGROUND for background.
     """
 
     color: NDArray[np.uint8]
@@ -90,10 +92,10 @@ def draw(client: BulletClient, view: View) -> Rendering:
 
 
 def parts(view: View) -> tuple[View, ...]:
-    """What a view is drawn by: itself, or, of a large one, the even and the odd columns.
+    """Split a large view into its even and its odd columns; return any other view as it is.
 
-    Whether one process draws both or each has its own, the picture is the same to the bit. Of such
-    parts each takes half as long as the whole.
+    The picture is the same, bit for bit, whether one process draws both parts or two draw one each.
+    Each part takes half as long as the whole.
     """
     if view.width < LARGE or view.width % 2:
         return (view,)
@@ -101,24 +103,24 @@ def parts(view: View) -> tuple[View, ...]:
 
 
 def _every_second_column(view: View, first: int) -> View:
-    """The columns from `first` on: columns twice as wide, moved so that they are sampled there."""
+    """Every second column from `first`: columns are twice as wide, and shifted to sample there."""
     projection = list(view.projection)
     projection[8] += 2 * first / view.width
     return replace(view, width=view.width // 2, projection=tuple(projection))
 
 
 def interleaved(parts: Sequence[NDArray[Any]]) -> NDArray[Any]:
-    """Pixels of the whole (height, width, ...), whose columns are in turn those of the parts."""
+    """Pixels (height, width, ...) of the whole view, with columns taken from the parts in turn."""
     height, width, *channels = parts[0].shape
     whole = np.empty((height, width * len(parts), *channels), parts[0].dtype)
     for number, part in enumerate(parts):
-        for channel in np.ndindex(*channels):  # five times as fast as all at once
+        for channel in np.ndindex(*channels):  # five times as fast as all channels at once
             whole[(..., slice(number, None, len(parts)), *channel)] = part[(..., *channel)]
     return whole
 
 
 def draw_part(client: BulletClient, view: View) -> Rendering:
-    """Draw all columns of a view in one go."""
+    """Draw a view in one call of the renderer, without splitting it."""
     light = view.light
     _, _, color, depth, segmentation = client.getCameraImage(
         view.width,
@@ -142,6 +144,6 @@ def draw_part(client: BulletClient, view: View) -> Rendering:
     metres[bodies == BACKGROUND] = np.inf
     pixels = np.asarray(color, np.uint8).reshape(*shape, 4)
     rgb = np.empty((*shape, 3), np.uint8)
-    for channel in range(3):  # five times as fast as all at once
+    for channel in range(3):  # five times as fast as all channels at once
         rgb[..., channel] = pixels[..., channel]
     return Rendering(rgb, metres.astype(np.float32), bodies)

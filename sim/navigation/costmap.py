@@ -1,7 +1,7 @@
-"""What stands in the way and is not on the map: seen by the laser or bumped into, until it is gone.
+"""Obstacles that are not on the map: seen by the laser or bumped into.
 
-The local costmap of the field's navigation stacks: scans mark what they hit and clear what they
-see through; the planner takes the marks for obstacles.
+This is the local costmap of common navigation stacks: a scan marks the cells that it hits, and
+clears those that it sees through; the planner treats marked cells as obstacles.
 """
 
 import numpy as np
@@ -13,27 +13,28 @@ from sim.navigation.grid import FOOTPRINT_M, OccupancyGrid
 
 CELL_M = 0.05
 KNOWN_M = 0.10
-"""What is hit this near to something on the map is that."""
+"""A hit this near to an obstacle of the map belongs to that obstacle, and is not marked."""
 THICKNESS_M = 0.15
-"""A mark is cleared if the laser sees this much farther in its direction."""
+"""A mark is cleared if the laser sees this much farther than the mark in its direction."""
 FORGOTTEN_S = 60.0
-"""Marks that were not seen again for so long may be gone: it is worth a look."""
+"""`forget` drops marks that were not seen for this long: the obstacle may be gone."""
 TOO_NEAR_M = FOOTPRINT_M + 0.02
-"""A way that comes this near to a mark is blocked."""
+"""A path that comes nearer than this to a mark is blocked."""
 Cell = tuple[int, int]
+"""x and y in `map`, in units of CELL_M."""
 
 
 class Costmap:
-    """The marks, and the map with them."""
+    """The map, and marked obstacles that are not on it."""
 
     def __init__(self, grid: OccupancyGrid) -> None:
-        """Know only the map."""
+        """Begin with the map and no marks."""
         self._grid = grid
         self._seen: dict[Cell, float] = {}
         self._bumps: dict[Cell, float] = {}
 
     def take(self, scan: Scan, time_s: float) -> None:
-        """Clear what the scan sees through, mark what it hits."""
+        """Clear the marks that the scan sees through, and mark its hits; `time_s` is now."""
         marks = _points(self._seen)
         if len(marks):
             away = np.linalg.norm(marks - scan.middle, axis=1)
@@ -45,11 +46,11 @@ class Costmap:
         self._seen.update(dict.fromkeys(_cells(new), time_s))
 
     def bump(self, point: Floats, time_s: float) -> None:
-        """Mark a point (2,) in `map` where the robot met something that the laser does not see."""
+        """Mark a point (2,) in `map` where the robot hit something that the laser does not see."""
         self._bumps.update(dict.fromkeys(_cells(point[None]), time_s))
 
     def forget(self, time_s: float) -> None:
-        """Drop the marks of long ago."""
+        """Drop the marks that were not seen for FORGOTTEN_S."""
         for marks in (self._seen, self._bumps):
             for cell in [c for c, seen in marks.items() if time_s - seen > FORGOTTEN_S]:
                 del marks[cell]
@@ -60,10 +61,13 @@ class Costmap:
         return not (self._seen or self._bumps)
 
     def blocks(self, way: Floats, here: Floats) -> bool:
-        """Whether the robot, now at `here` (2,), would come too near to a mark.
+        """Whether the robot would come too near to a mark.
 
-        `way` are the points (n, 2) that it means to pass. Out of a tight spot it may go, as long as
-        that takes it no nearer.
+        A robot that is already too near may drive on, as long as it comes no nearer.
+
+        Args:
+            way: the points (n, 2) that it is about to pass (metres, in `map`).
+            here: (2,) its position now.
         """
         if self.is_empty:
             return False
@@ -72,7 +76,7 @@ class Costmap:
         return bool(np.min(marks.query(way)[0]) < limit)
 
     def grid(self) -> OccupancyGrid:
-        """The map with what is marked in the way."""
+        """The map with the marks as obstacles."""
         return self._grid if self.is_empty else self._grid.with_obstacles(self._marks())
 
     def _marks(self) -> Floats:

@@ -1,7 +1,7 @@
-"""How long the robot's ways take, by the map: known before it sets out.
+"""Estimates how long the robot drives between places, from the map alone.
 
-A way is driven as `sim.body.base` has it: no faster than corners, the distance to the end and the
-acceleration allow, and with a turn to face the place at the end.
+The estimate follows the speed profile of `sim.body.base`, with its limits at corners and ends, and
+adds the turn to face the place at the end.
 """
 
 import threading
@@ -16,30 +16,30 @@ from sim.home.home import Home
 from sim.navigation.grid import OccupancyGrid, Point, ways
 
 STEP_M = 0.02
-"""Speeds are worked out at points of the way that are so far apart."""
+"""Distance between the path points at which speeds are computed."""
 TURNING_M = 0.9
-"""So far before the end the robot begins to turn to the place."""
+"""The robot begins to turn to the place this far before the end."""
 
 
 class Durations:
-    """The seconds of all ways between the places of a home; worked out when they are asked for."""
+    """The driving times between all places of a home, computed on demand; safe for threads."""
 
     def __init__(self, home: Home, grid: OccupancyGrid) -> None:
-        """Know nothing yet."""
+        """Compute nothing yet."""
         self._home = home
         self._grid = grid
         self._known: dict[str, dict[str, float]] = {}
         self._lock = threading.Lock()
 
     def seconds(self, start: str, place: str) -> float:
-        """Of the way from a place to another one; infinite if there is none, or no such place."""
+        """The driving time from a place to another (s); infinite if unreachable or unknown."""
         with self._lock:
             if start not in self._known:
                 self._known[start] = self._from(start)
             return self._known[start].get(place, np.inf)
 
     def work_out(self) -> None:
-        """All of them, ahead of time."""
+        """Compute all driving times ahead of time."""
         for place in self._places():
             self.seconds(place, place)
 
@@ -63,7 +63,10 @@ class Durations:
 
 
 def durations_in(home: Home, grid: OccupancyGrid) -> Durations:
-    """Those of this home, wherever its things are; worked out once in a process, on a thread."""
+    """The driving times in a home; shared by all homes that differ only in their objects.
+
+    They are computed once per process, on a thread of their own.
+    """
     key = home.model_dump_json(exclude={"objects"})
     if key not in _worked_out:
         _worked_out[key] = durations = Durations(home, grid)
@@ -75,7 +78,14 @@ _worked_out: dict[str, Durations] = {}
 
 
 def duration(way: tuple[Point, ...], yaw: float, end_yaw: float, limits: Limits = FREE) -> float:
-    """Seconds of driving along a way (metres, in `map`), from standing at a yaw to another one."""
+    """The driving time along a path, from rest to rest (s).
+
+    Args:
+        way: the way-points (metres, in `map`).
+        yaw: heading at the start (radians).
+        end_yaw: heading at the end (radians).
+        limits: limits of velocity and acceleration.
+    """
     points = np.array(way)
     lengths = np.linalg.norm(np.diff(points, axis=0), axis=1)
     length = float(lengths.sum())
@@ -90,7 +100,7 @@ def duration(way: tuple[Point, ...], yaw: float, end_yaw: float, limits: Limits 
 def _late_turn(
     points: Floats, along: Floats, times: Floats, end_yaw: float, limits: Limits
 ) -> float:
-    """How much longer the turn at the end takes than the last bit of the way (s)."""
+    """The time that the final turn still takes after the end of the path is reached (s)."""
     last = points[-1] - points[-2]
     turn = float(np.remainder(end_yaw - np.arctan2(last[1], last[0]) + np.pi, 2 * np.pi) - np.pi)
     left = float(times[along[:-1] > along[-1] - TURNING_M].sum())
@@ -98,7 +108,7 @@ def _late_turn(
 
 
 def _turning(angle: float, limits: Limits) -> float:
-    """Seconds of a turn (radians) on the spot."""
+    """The time for a turn on the spot by an angle in radians (s)."""
     slowly = limits.turn_rate**2 / limits.turn_acceleration
     if angle < slowly:
         return 2 * float(np.sqrt(angle / limits.turn_acceleration))

@@ -1,6 +1,6 @@
-"""Ways for a round robot through the home: a grid of clearances, and the cheapest path on it.
+"""Path planning for a round robot: a grid of clearances, and the cheapest path on it.
 
-The map is the home's plan, walls and furniture; what a person leaves on the floor is not in it.
+The map is the home's plan with walls, furniture and the person; objects on the floor are not in it.
 """
 
 from collections.abc import Sequence
@@ -23,37 +23,37 @@ Slices = tuple[slice, slice]
 FOOTPRINT_M = 0.33
 """Radius of the robot, seen from above."""
 COMFORT_M = 0.5
-"""With this much room around its middle the robot is at ease; less costs extra."""
+"""Cells with less clearance than this cost extra."""
 FAR_M = 1.0
-"""What is farther away than this does not matter."""
+"""Clearance is cut off at this distance."""
 DISCOMFORT = 4.0
-"""How much dearer a metre is where the robot just fits."""
+"""The extra cost of a metre where the robot just fits; a metre in free space costs 1."""
 PERSON_RADIUS_M = 0.25
 SLACK = 1.02
-"""A straight line may cost this much of the path that it replaces."""
+"""A straight line may replace a part of the path if it costs at most this many times as much."""
 THINNED = 6
-"""Where many ways are worked out, every so many-th cell of each is enough."""
+"""When many paths are planned, only every sixth cell of each is kept, for speed."""
 SNAP_M = 0.25
-"""The robot may start this far from where it is allowed to be, to get out of a tight place."""
+"""The start may be this far from the nearest free cell: the robot can leave tight places."""
 
 
 class Unreachable(Exception):
-    """There is no way; the text says why, as a clause with a gap for the name of the goal."""
+    """There is no path; the text says why, as a clause with `{place}` for the name of the goal."""
 
     def clause(self, place: str) -> str:
-        """Why there is none to this place: "the way to the desk is blocked"."""
+        """The reason with the name of the goal: "the way to the desk is blocked"."""
         return str(self).format(place=place)
 
 
 @dataclass(frozen=True, eq=False)
 class OccupancyGrid:
-    """How far each cell is from what stands in the way.
+    """The distance of each cell to the nearest obstacle.
 
     Attributes:
-        origin: the middle of cell [0, 0] in `map` (metres).
+        origin: centre of cell [0, 0] in `map` (metres).
         resolution: side of a cell (metres).
-        clearance: (columns, rows) distance from the middle of a cell, x by column and y by row, to
-            the nearest wall, furniture or person (metres, at most FAR_M); 0 inside of them.
+        clearance: (columns, rows) distance from the centre of a cell to the nearest wall, furniture
+            or person (metres, at most FAR_M); 0 inside them. Columns go along x, rows along y.
     """
 
     origin: Point
@@ -62,7 +62,7 @@ class OccupancyGrid:
 
     @classmethod
     def from_home(cls, home: Home, resolution: float = 0.05) -> "OccupancyGrid":
-        """The home as its plan has it; everything outside of the rooms is in the way."""
+        """The grid of a home's plan; everything outside the rooms is an obstacle."""
         edges = np.array([room.rectangle for room in home.rooms])
         origin = (float(edges[:, 0].min()), float(edges[:, 1].min()))
         steps = [
@@ -88,7 +88,7 @@ class OccupancyGrid:
         return cls(origin, resolution, clearance)
 
     def with_obstacles(self, points: Floats) -> "OccupancyGrid":
-        """The same with points (n, 2) of `map` in the way, too (metres)."""
+        """A grid with additional obstacles at points (n, 2) (metres, in `map`)."""
         low, high = points.min(axis=0) - FAR_M, points.max(axis=0) + FAR_M
         first, last = (
             np.clip(self.cells(corner[None])[0], 0, self.clearance.shape) for corner in (low, high)
@@ -101,7 +101,7 @@ class OccupancyGrid:
         return OccupancyGrid(self.origin, self.resolution, clearance)
 
     def clearance_at(self, points: Floats) -> Floats:
-        """(n,) clearance of the cells that points (n, 2) of `map` are in; 0 off the grid."""
+        """(n,) clearance of the cells of points (n, 2) in `map` (metres); 0 off the grid."""
         columns, rows = self.cells(points).T
         shape = self.clearance.shape
         on_grid = (columns >= 0) & (columns < shape[0]) & (rows >= 0) & (rows < shape[1])
@@ -110,12 +110,12 @@ class OccupancyGrid:
         return found
 
     def cells(self, points: Floats) -> NDArray[np.intp]:
-        """(n, 2) column and row of the cells of points (n, 2); some may be off the grid."""
+        """(n, 2) column and row of the cells of points (n, 2) in `map`; may be off the grid."""
         return np.rint((points - self.origin) / self.resolution).astype(np.intp)
 
     @cached_property
     def free(self) -> NDArray[np.bool_]:
-        """(columns, rows) whether the robot fits with its middle anywhere in the cell."""
+        """(columns, rows) whether the robot fits with its centre anywhere in the cell."""
         return np.asarray(self.clearance >= FOOTPRINT_M + self.resolution)
 
     def is_free(self, cell: tuple[int, int]) -> bool:
@@ -124,7 +124,7 @@ class OccupancyGrid:
         return 0 <= cell[0] < columns and 0 <= cell[1] < rows and bool(self.free[cell])
 
     def cell(self, point: Point) -> tuple[int, int]:
-        """Column and row of the cell that a point (metres, in `map`) is in; may be off the grid."""
+        """Column and row of the cell of a point (metres, in `map`); may be off the grid."""
         column, row = (
             round((value - start) / self.resolution)
             for value, start in zip(point, self.origin, strict=True)
@@ -132,7 +132,7 @@ class OccupancyGrid:
         return column, row
 
     def point(self, cell: tuple[int, int]) -> Point:
-        """The middle of a cell in `map` (metres)."""
+        """The centre of a cell in `map` (metres)."""
         return (
             self.origin[0] + cell[0] * self.resolution,
             self.origin[1] + cell[1] * self.resolution,
@@ -140,14 +140,17 @@ class OccupancyGrid:
 
     @cached_property
     def price(self) -> Floats:
-        """(columns, rows) cost of a metre through each cell; infinite where the robot cannot be."""
+        """(columns, rows) cost of a metre through each cell; infinite where it is not free."""
         tightness = (COMFORT_M - self.clearance) / (COMFORT_M - FOOTPRINT_M)
         price = 1.0 + DISCOMFORT * np.clip(tightness, 0.0, 1.0) ** 2
         return np.where(self.free, price, np.inf)
 
     @cached_property
     def graph(self) -> csr_array[np.float64]:
-        """Free cells, numbered row-major, and the cost of a step to each of their 8 neighbours."""
+        """The cost of a step from each free cell to its 8 neighbours; cells in row-major order.
+
+        Each pair of cells has one entry: the graph is undirected.
+        """
         numbers = np.arange(self.clearance.size, dtype=np.int32).reshape(self.clearance.shape)
         starts, ends, costs = [], [], []
         for dx, dy in ((1, 0), (0, 1), (1, 1), (1, -1)):
@@ -162,13 +165,13 @@ class OccupancyGrid:
 
 
 def plan(grid: OccupancyGrid, start: Point, goal: Point) -> tuple[Point, ...]:
-    """The cheapest way from start to goal: points in `map` to drive through in straight lines.
+    """The cheapest path from start to goal, as way-points joined by straight lines (m, in `map`).
 
-    It keeps the footprint free all along and stays in the middle where there is room. Both ends are
-    part of it. A start that is too close to something first leads to the nearest free cell.
+    It keeps the footprint free, and some distance to obstacles where there is room. The path
+    includes start and goal. If the start is not free, it leads to the nearest free cell first.
 
     Raises:
-        Unreachable: if there is no such way.
+        Unreachable: if there is no such path.
     """
     if not grid.is_free(grid.cell(goal)):
         raise Unreachable("there is no room to stand at the {place}")
@@ -181,9 +184,9 @@ def plan(grid: OccupancyGrid, start: Point, goal: Point) -> tuple[Point, ...]:
 def ways(
     grid: OccupancyGrid, start: Point, goals: Sequence[Point]
 ) -> list[tuple[Point, ...] | None]:
-    """The cheapest way to each of the goals; None where there is none.
+    """The cheapest path to each goal; None for goals that cannot be reached.
 
-    They are straightened in longer steps than those that are driven, which is quicker.
+    These paths are for estimates: they are coarser than those of `plan`, and faster to compute.
     """
     try:
         reach = Reach.of(grid, start)
@@ -193,10 +196,10 @@ def ways(
 
 
 def reachable(grid: OccupancyGrid, start: Point) -> NDArray[np.bool_]:
-    """(columns, rows) the cells that the robot can get to from where it starts.
+    """(columns, rows) whether the robot can reach each cell from `start`.
 
     Raises:
-        Unreachable: if it cannot move at all.
+        Unreachable: if there is no free cell near the start.
     """
     if not grid.is_free(grid.cell(start)):
         start = _nearest_free(grid, start)
@@ -206,11 +209,13 @@ def reachable(grid: OccupancyGrid, start: Point) -> NDArray[np.bool_]:
 
 @dataclass(frozen=True, eq=False)
 class Reach:
-    """All that can be reached from a point, and what it costs (both by cell, row-major).
+    """The shortest-path tree from a point.
 
     Attributes:
-        start: where the way begins that keeps the footprint free.
-        head: where the robot is, if it has to get to `start` first.
+        start: the root, in a free cell (metres, in `map`).
+        head: the robot's position, if it has to move to `start` first; else empty.
+        costs: of the path to each cell (row-major); infinite if there is none.
+        previous: the cell before each cell on its path (row-major).
     """
 
     grid: OccupancyGrid
@@ -221,10 +226,10 @@ class Reach:
 
     @classmethod
     def of(cls, grid: OccupancyGrid, start: Point) -> "Reach":
-        """All from here; a start that is too close to something leads to the nearest free cell.
+        """Compute the tree; a start that is not free is moved to the nearest free cell.
 
         Raises:
-            Unreachable: if the robot is stuck there.
+            Unreachable: if there is no free cell near the start.
         """
         here = start if grid.is_free(grid.cell(start)) else _nearest_free(grid, start)
         first = int(np.ravel_multi_index(grid.cell(here), grid.clearance.shape))
@@ -234,7 +239,7 @@ class Reach:
         return cls(grid, here, () if here == start else (start,), costs[0], previous[0])
 
     def way(self, goal: Point, every: int = 1) -> tuple[Point, ...] | None:
-        """The cheapest way there, made of every so many-th cell of it; None if there is none."""
+        """The cheapest path to a goal, by every `every`-th of its cells; None if there is none."""
         grid = self.grid
         if not grid.is_free(grid.cell(goal)):
             return None
@@ -252,7 +257,10 @@ class Reach:
 
 
 def _straightened(grid: OccupancyGrid, points: list[Point], costs: Floats) -> tuple[Point, ...]:
-    """The points without those that a straight line may skip at (nearly) no more cost."""
+    """The points without those that a straight line can skip at (nearly) the same cost.
+
+    `costs` (n,) are the costs of the path up to each point.
+    """
     kept = [0]
     for index in range(2, len(points)):
         straight = _cost(grid, points[kept[-1]], points[index])
@@ -262,7 +270,7 @@ def _straightened(grid: OccupancyGrid, points: list[Point], costs: Floats) -> tu
 
 
 def _cost(grid: OccupancyGrid, start: Point, end: Point) -> float:
-    """Cost of a straight line; infinite if the robot does not fit through."""
+    """Cost of a straight line; infinite if it passes a cell that is not free."""
     length = float(np.hypot(end[0] - start[0], end[1] - start[1]))
     share = np.linspace(0.0, 1.0, 2 + int(2 * length / grid.resolution))[:, None]
     points = np.asarray(start) * (1 - share) + np.asarray(end) * share
@@ -282,7 +290,7 @@ def _nearest_free(grid: OccupancyGrid, point: Point) -> Point:
 
 
 def _neighbours(grid: NDArray[np.bool_], dx: int, dy: int) -> tuple[Slices, Slices]:
-    """Slices of a grid such that the second gives the neighbours by (dx, dy) of the first."""
+    """Two slices of a grid: cells, and their neighbours at the offset (dx, dy)."""
     columns, rows = grid.shape
     low, high = max(0, -dy), rows - max(0, dy)
     here = slice(0, columns - dx), slice(low, high)
@@ -291,7 +299,7 @@ def _neighbours(grid: NDArray[np.bool_], dx: int, dy: int) -> tuple[Slices, Slic
 
 
 def _window(origin: Point, resolution: float, box: tuple[float, ...]) -> Slices:
-    """The cells that may be within FAR_M of a rectangle: middle x and y, yaw, length and width."""
+    """The cells that may be within FAR_M of a rectangle: centre x and y, yaw, length and width."""
     reach = float(np.hypot(box[3], box[4])) / 2 + FAR_M
     columns, rows = (
         slice(
@@ -304,7 +312,7 @@ def _window(origin: Point, resolution: float, box: tuple[float, ...]) -> Slices:
 
 
 def _distance_to_box(x: Floats, y: Floats, box: tuple[float, ...]) -> Floats:
-    """Distance (metres) of points to a rectangle: middle x and y, yaw, length and width."""
+    """Distance (metres) of points to a rectangle: centre x and y, yaw, length and width."""
     cos, sin = np.cos(box[2]), np.sin(box[2])
     ahead = np.abs((x - box[0]) * cos + (y - box[1]) * sin) - box[3] / 2
     aside = np.abs((y - box[1]) * cos - (x - box[0]) * sin) - box[4] / 2

@@ -1,4 +1,4 @@
-"""Getting the base to a pose through the home, around what is in the way and not on the map."""
+"""Drives the base to a pose through the home, around obstacles that are not on the map."""
 
 from collections.abc import Callable, Generator
 
@@ -14,15 +14,15 @@ from sim.navigation.costmap import Costmap
 from sim.navigation.grid import OccupancyGrid, Point, Unreachable, plan
 
 SCAN_EVERY = 10
-"""Control periods between turns of the laser: six a second."""
+"""Control periods between scans: six scans a second."""
 WAYS_TRIED = 8
-"""How often something new may be in the way of one drive."""
+"""Paths that the robot tries for one goal before it gives up."""
 PATIENCE_S = 3.0
-"""How long the robot waits for what blocks the only way to go away."""
+"""How long the robot waits for an obstacle on the only path to go away."""
 
 
 class Navigator:
-    """Plans on the map and what the laser sees, follows the way, and plans anew when it must."""
+    """Plans a path with the map and the scans, follows it, and replans when it is blocked."""
 
     def __init__(
         self,
@@ -33,7 +33,7 @@ class Navigator:
         now: Callable[[], float],
         thinker: Thinker,
     ) -> None:
-        """Use these parts; `now` gives the robot's time (s)."""
+        """Use these parts; `now` returns the robot's time (s)."""
         self._hardware = hardware
         self._laser = laser
         self._costmap = Costmap(grid)
@@ -46,7 +46,7 @@ class Navigator:
         """Drive to a pose in `map`.
 
         Raises:
-            Unreachable: if there is no way, or too often something new is in it.
+            Unreachable: if there is no path, or WAYS_TRIED paths were blocked.
         """
         for _ in range(WAYS_TRIED):
             way = yield from self._plan(goal[:2])
@@ -60,7 +60,7 @@ class Navigator:
         raise Unreachable("the way to the {place} is blocked")
 
     def _plan(self, goal: Point) -> Generator[None, None, tuple[Point, ...]]:
-        """A way; if only what was seen leaves none, wait a little, have another look, try again."""
+        """Plan a path; if marked obstacles leave none, wait, scan again, and try once more."""
         self._look()
         try:
             return (yield from self._way(goal))
@@ -77,7 +77,7 @@ class Navigator:
         return (yield from self._thinker.compute(lambda: plan(self._costmap.grid(), here, goal)))
 
     def _blocked(self, ahead: Callable[[], Floats]) -> bool:
-        """Look now and then whether something is in the way."""
+        """Whether an obstacle blocks the path; scans every SCAN_EVERY calls only."""
         self._periods += 1
         if self._periods % SCAN_EVERY:
             return False
