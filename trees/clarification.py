@@ -253,8 +253,15 @@ class AskWhichObject(Ask):
 
 
 def _all_named(said: Said) -> Said:
-    """An answer with one thing more is one with all of them: "the pear, the mug, too"."""
+    """An answer with one thing more is one with all of them: "the pear, the mug, too".
+
+    So is "no, all of them".
+    """
     match said:
+        case Correction(meant=Things(members=[Thing(pronoun=True, number=number)])) if (
+            number == ALL
+        ):
+            return Answer(Choice.ALL)
         case Correction(meant=Things(members=[_, _, *_]) as things, adds=True):
             return Answer(things=things)
     return said

@@ -88,11 +88,13 @@ def destination(context: MissionContext) -> Behaviour:
 
 
 def destination_of_all(context: MissionContext) -> Behaviour:
-    """The same for several things, if it was said: asked once, and each of them goes there."""
+    """The same for several things: asked once, and each of them goes there."""
     request = context.situation.request
 
     def goal() -> list[str]:
-        return [request.command.goal] if request.command and request.command.goal else []
+        command = request.command
+        goes = command and (command.goal or command.kind == CommandKind.PUT)
+        return [command.goal] if command and goes else []
 
     return EachOf(
         "if they go somewhere",
