@@ -27,6 +27,8 @@ from trees.passed_over import passed_over_in_name
 from trees.telling import tell
 from trees.unknown import nearest, unknown, unresolved
 
+_UNNAMED = ("something ", "anything ")
+"""So begins what has properties, and no name: "something red"."""
 _QUESTIONS = {CommandKind.FIND, CommandKind.COUNT, CommandKind.CHECK, CommandKind.TELL}
 
 
@@ -106,7 +108,8 @@ class AskWhichObject(Ask):
         if (options := self.situation.request.options) and self.situation.request.several:
             text = f"I can do one thing at a time. Which first: {any_of(options)}?"
         elif options:
-            kind = "" if self.situation.request.command.purpose else f" {target}"
+            unnamed = self.situation.request.command.purpose or target.startswith(_UNNAMED)
+            kind = "" if unnamed else f" {target}"
             text = f"Which{kind} do you mean: {any_of(options)}?"
         elif self._all_left_out():
             text = f"I know no other {target}. Which thing do you mean?"

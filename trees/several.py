@@ -66,9 +66,9 @@ def is_all_there_is(context: MissionContext, command: Command) -> bool:
     """Whether every thing of the home is to be carried: "bring everything" seldom means that."""
     if command.number != ALL or command.source or not command.kind.means.carries:
         return False
-    find = context.knowledge.objects_named
+    find, names = context.knowledge.objects_named, things_meant(context, command)
     everything = {*meant(context.knowledge, command)} == {*find(THING)}
-    return everything and which_of_all(context, command) == things_meant(context, command)
+    return everything and len(names) > 1 and which_of_all(context, command) == names
 
 
 class AskWhetherAll(AskYesNo):

@@ -437,3 +437,8 @@ def test_what_else_is_to_be_done_if_it_is_not_found_is_done_only_then(search: st
     shut = {DriveTo("coffee_table"): "the way is blocked"}
     other = run(words, search=search, answers=answers, fault=shut.get)
     assert (other.outcome.status, on(other, "delivery")) == (DONE, {"pear"})
+
+
+def test_what_has_no_name_but_a_colour_is_asked_about_in_plain_words() -> None:
+    red = run("Bring me something red", answers=[])
+    assert asked(red)[0].startswith("Which do you mean: the apple, the strawberry,")

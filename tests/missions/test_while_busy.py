@@ -134,6 +134,24 @@ def test_only_this_of_several_is_not_all_of_them(wanted: str, words: str) -> Non
     assert brought == ["pear"]
 
 
+@pytest.mark.parametrize("again", ["Bring the mug", "bring me the mug, please", "And the mug"])
+def test_what_is_asked_for_twice_is_done_once(again: str) -> None:
+    mission = run("Bring the mug", again)
+    assert "I drive to the coffee table, to bring the mug." in answers(mission)
+    assert tasks(mission) == [("bring", "mug", DONE)]
+
+
+def test_what_waits_and_is_asked_for_again_is_done_once() -> None:
+    mission = run("Bring the hammer, then the mug", "bring the mug")
+    assert tasks(mission) == [("bring", "hammer", DONE), ("bring", "mug", DONE)]
+
+
+def test_what_was_put_back_meanwhile_is_brought_again() -> None:
+    mission = run("Bring the mug, then put it back", "Bring the mug")
+    assert [kind for kind, _, _ in tasks(mission)] == ["bring", "put_back", "bring"]
+    assert mission.world.resting_place("mug") == "delivery"
+
+
 @pytest.mark.parametrize(
     ("words", "left_out"),
     [
