@@ -118,6 +118,8 @@ def test_forgetting_what_nobody_knows_ends_all() -> None:
         ("forget all but the mug", {"mug"}),
         ("skip everything except the hammer", {"hammer"}),
         ("do not bring anything but the mug", {"mug"}),
+        ("no, all but the mug", {"hammer"}),
+        ("no, everything but the hammer", {"mug"}),
     ],
 )
 def test_only_this_is_nothing_else(words: str, brought: set[str]) -> None:
