@@ -12,7 +12,10 @@ from typing import TextIO
 
 from executive.events import THE_PERSON, Inbox, StopRequested
 from executive.keyboard import keyboard_of
+from executive.language.commands import NOT_KEPT, WILL_NOT
 from executive.language.control import Control, control
+from executive.language.meaning import Refusal
+from executive.language.reader import english
 from executive.terminal import Terminal
 from executive.text import LONGEST, one_line, printable, too_long, writable
 from executive.types.dialogue import Question, QuestionKind
@@ -28,6 +31,16 @@ MOST_LINES = 1000
 """A script is read no further while so many lines of it wait."""
 POLL_S = 0.05
 NOTHING_TO_STOP = "There is nothing to stop: I am at rest."
+
+
+def at_rest(words: str) -> str:
+    """What to say to words that say stop while nothing runs.
+
+    Some say what is not to be done later: "don't go into the bedroom", and not only "don't move".
+    """
+    said = english().read(words)
+    forbids = isinstance(said, Refusal) and " " in said.words
+    return WILL_NOT + NOT_KEPT if forbids else NOTHING_TO_STOP
 
 
 class Console:
@@ -175,7 +188,7 @@ class Console:
         if said is Control.QUIT:
             self._quit()
         elif said is Control.STOP:
-            self._stop()
+            self._stop(words=words)
         elif why := too_long(line):
             self._say(f"Sorry: {why}.")
         elif words and not self._keep(words, typed or self._typed):
@@ -191,13 +204,13 @@ class Console:
                 self._serve()
             return taken
 
-    def _stop(self, by: str = THE_PERSON) -> None:
+    def _stop(self, by: str = THE_PERSON, words: str = "") -> None:
         with self._lock:
             idle, forgotten = self._is_idle, bool(self._lines)
             self._lines.clear()
         if not idle:
             self._inbox.post(StopRequested(by))
-        self._say((NOTHING_TO_STOP if idle else STOPPING) + f" {FORGOTTEN}" * forgotten)
+        self._say((at_rest(words) if idle else STOPPING) + f" {FORGOTTEN}" * forgotten)
 
     @property
     def _is_idle(self) -> bool:

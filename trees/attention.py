@@ -33,7 +33,7 @@ from executive.types.commands import Command, CommandKind
 from trees.at_hand import of_all_spoken, spoken_now
 from trees.context import MissionContext
 from trees.corrections import correct
-from trees.first_or_only import first_of_all, nothing_else
+from trees.first_or_only import first_of_all, nothing_else, spared
 from trees.taken_back import refused
 from trees.wished import take_in
 from trees.wishes import named_in, objects_of
@@ -113,6 +113,8 @@ def _taken_back(
     context: MissionContext, said: Refusal, words: str, at_hand: Command | None, now: str
 ) -> str:
     """Leave out what is refused; no answer if the refusal changes nothing."""
+    if at_hand and (only := spared(context, said)):
+        return nothing_else(context, only, words, at_hand)
     if answer := refused(context, said.words, at_hand):
         beside = _beside(context, said.words.partition(" but ")[2], at_hand)
         return answer + (SAY_INSTEAD if said.more else beside)

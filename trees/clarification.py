@@ -27,6 +27,8 @@ from trees.passed_over import passed_over_in_name
 from trees.telling import tell
 from trees.unknown import nearest, unknown, unresolved
 
+_UNNAMED = ("something ", "anything ")
+"""So begins what has properties, and no name: "something red"."""
 _QUESTIONS = {CommandKind.FIND, CommandKind.COUNT, CommandKind.CHECK, CommandKind.TELL}
 
 
@@ -102,7 +104,8 @@ class AskWhichObject(Ask):
         if (options := self.situation.request.options) and self.situation.request.several:
             text = f"I can do one thing at a time. Which first: {any_of(options)}?"
         elif options:
-            kind = "" if self.situation.request.asked_for.purpose else f" {target}"
+            unnamed = self.situation.request.asked_for.purpose or target.startswith(_UNNAMED)
+            kind = "" if unnamed else f" {target}"
             text = f"Which{kind} do you mean: {any_of(options)}?"
         elif self._all_left_out():
             text = f"I know no other {target}. Which thing do you mean?"
@@ -249,8 +252,12 @@ class AskWhichObject(Ask):
 
 
 def _all_named(said: Said) -> Said:
-    """The same; but "the pear, the mug, too" is an answer with both things, not a correction."""
+    """The same; but "the pear, the mug, too" and "no, all of them" are answers, not corrections."""
     match said:
+        case Correction(meant=Things(members=[Thing(pronoun=True, number=number)])) if (
+            number == ALL
+        ):
+            return Answer(Choice.ALL)
         case Correction(meant=Things(members=[_, _, *_]) as things, adds=True):
             return Answer(things=things)
     return said

@@ -11,7 +11,7 @@ from itertools import chain
 from executive.language.corrections import corrected
 from executive.language.meaning import ME, Correction, Request, Thing, Things
 from executive.language.pronouns import with_names
-from executive.types.commands import Command, Commands
+from executive.types.commands import ALL, Command, Commands
 from trees.at_hand import of_all_spoken
 from trees.context import MissionContext
 from trees.taken_back import refused
@@ -34,6 +34,8 @@ def correct(
     at_hand = context.situation.agenda.whole_of(context.situation.request.command)
     assert at_hand
     spoken = of_all_spoken(context.situation, said.meant)
+    if (but := _all_but_these(context, said, at_hand)) and (less := refused(context, but, at_hand)):
+        return less
     if changed := _correct_later(context, said, at_hand, words):
         return changed
     if said.left_out and not _is_goal(context, said.left_out, at_hand):
@@ -43,6 +45,21 @@ def correct(
         return added(context, commands, now)
     commands = (*commands, *_likewise(context, said, at_hand, commands, words))
     return replaced(context, commands, instead)
+
+
+def _all_but_these(context: MissionContext, said: Correction, at_hand: Command) -> str:
+    """What is to be left of all that was asked for: "no, all but the pear"; empty if it is not so.
+
+    Of a kind that was asked for, "all but the pear" are the others of that kind.
+    """
+    match said.meant:
+        case Things(members=[Thing(words="", number=number, exceptions=left_out)]) if number == ALL:
+            words = " and ".join(but.words for but in left_out)
+        case _:
+            return ""
+    named, waiting = named_in(context, words), context.situation.agenda.whole_tasks
+    wanted = (objects_of(context, one) for one in (at_hand, *(task.command for task in waiting)))
+    return words if any(set() < things <= named for things in wanted) else ""
 
 
 def _is_goal(context: MissionContext, left_out: Sequence[Thing], at_hand: Command) -> bool:

@@ -1,8 +1,9 @@
 """What is named is to be done before all else that was asked for, or instead of all of it."""
 
 from executive.language.anew import number_alone
+from executive.language.answers import things_in
 from executive.language.corrections import corrected
-from executive.language.meaning import Correction, Things
+from executive.language.meaning import Correction, Refusal, Thing, Things
 from executive.types.commands import Command
 from trees.context import MissionContext
 from trees.corrections import correct
@@ -22,10 +23,27 @@ def first_of_all(
     return commands if isinstance(commands, str) else done_first(context, commands, at_hand)
 
 
+def spared(context: MissionContext, said: Refusal) -> Things | None:
+    """What is not refused, if all else is; None if it is not said so.
+
+    As in "forget all but the mug", "do not bring anything but the mug".
+    """
+    match things_in(context.interpreter.read(said.words)):
+        case Things(members=[Thing(exceptions=left_out) as thing]) if (
+            not thing.words or thing.pronoun
+        ):
+            return Things(left_out) if _named(context, Things(left_out)) else None
+    return None
+
+
+def _named(context: MissionContext, things: Things) -> set[str]:
+    return named_in(context, " or ".join(thing.words for thing in things.members))
+
+
 def nothing_else(context: MissionContext, things: Things, words: str, at_hand: Command) -> str:
     """Do what is named, and nothing else that was to be done; or do it instead of all of that."""
     agenda = context.situation.agenda
-    named = named_in(context, " or ".join(thing.words for thing in things.members))
+    named = _named(context, things)
     if not named:
         number = number_alone(things)
         fewer = only_so_many(context, number, at_hand) if number else ""

@@ -90,7 +90,9 @@ def destination_of_all(context: MissionContext) -> Behaviour:
     request = context.situation.request
 
     def goal() -> list[str]:
-        return [request.command.goal] if request.command and request.command.goal else []
+        command = request.command
+        goes = command and (command.goal or command.kind == CommandKind.PUT)
+        return [command.goal] if command and goes else []
 
     return EachOf(
         "if they go somewhere",

@@ -6,13 +6,19 @@ from dataclasses import replace
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
+from executive.language.commands import THING
+from executive.language.meaning import Answer, Choice, Correction, Request, Said, Thing, Things
 from executive.types.commands import ALL, Command, CommandKind
+from executive.types.dialogue import Question, QuestionKind
+from trees.asking import AskYesNo
 from trees.context import MissionContext
-from trees.meant import just_seen, things_meant
+from trees.corrections import correct
+from trees.meant import just_seen, meant, things_meant
 from trees.nodes import Check, EachOf, Step, fallback, sequence
 from trees.place_words import not_seen_yet
 from trees.places import destination_of_all, taken_from
 from trees.survey import not_seen, nothing_there, survey
+from trees.telling import number, tell
 from trees.unknown import nearest, unresolved
 from trees.wholes import without_condition
 
@@ -29,6 +35,10 @@ def several(context: MissionContext) -> Behaviour:
         command = request.command
         return [command.source] if command and command.source and not command.among else []
 
+    def all_there_is() -> Sequence[Command]:
+        command = request.command
+        return [command] if command and is_all_there_is(context, command) else []
+
     return sequence(
         "several",
         Check("several things", context, lambda: is_in_parts(context)),
@@ -37,6 +47,7 @@ def several(context: MissionContext) -> Behaviour:
             OnACondition("on a condition", context),
             sequence(
                 "each of them",
+                EachOf("if it is all there is", all_there_is, AskWhetherAll("ask", context)),
                 destination_of_all(context),
                 EachOf("if it is somewhere", somewhere, survey(context)),
                 EachThing("each thing", context),
@@ -49,6 +60,61 @@ def is_in_parts(context: MissionContext) -> bool:
     """Whether the current task has to be done in parts."""
     command = context.situation.request.command
     return command is not None and (command.is_plural or bool(not_seen_yet(context)))
+
+
+def is_all_there_is(context: MissionContext, command: Command) -> bool:
+    """Whether every thing of the home is to be carried: "bring everything" seldom means that."""
+    if command.number != ALL or command.source or not command.kind.means.carries:
+        return False
+    find, names = context.knowledge.objects_named, things_meant(context, command)
+    everything = {*meant(context.knowledge, command)} == {*find(THING)}
+    return everything and len(names) > 1 and which_of_all(context, command) == names
+
+
+class AskWhetherAll(AskYesNo):
+    """Asks whether really every thing is to be carried.
+
+    Reads request.command.
+    """
+
+    def question(self) -> Question:
+        """Say how many they are."""
+        command = self.situation.request.asked_for
+        names = things_meant(self.context, command)
+        text = f"Do you mean all {number(len(names))} things that I know, wherever they are?"
+        return Question(QuestionKind.CONFIRM, command.target, text, names)
+
+    def agreed(self) -> None:
+        """All are meant."""
+
+    def understood(self, answer: str) -> bool:
+        """Beside yes and no, all may be said again; who names some means these."""
+        said = self.context.interpreter.read(answer)
+        if isinstance(said, Answer) and said.choice == Choice.ALL:
+            self._agrees = True
+            return True
+        return _some_of_all(said) is None and super().understood(answer)
+
+    def _attend_to(self, said: Said, words: str) -> bool:
+        """Do what was asked for with those that are named: "no, only the fruits"."""
+        if (some := _some_of_all(said)) is None:
+            return super()._attend_to(said, words)
+        tell(self.context, correct(self.context, some, words, f"I {self.doing()}."))
+        return True
+
+    def unresolved(self) -> str:
+        """It may be fewer."""
+        return "I do not know which things you mean"
+
+
+def _some_of_all(said: Said) -> Correction | None:
+    """What is wished instead of all that there is; None if nothing is named."""
+    match said:
+        case Answer(things=Things(members=[Thing(pronoun=False), *_]) as things):
+            return Correction(things)
+        case Correction(meant=Request() | Things()):
+            return said
+    return None
 
 
 class OnACondition(Step):
@@ -92,7 +158,7 @@ class EachThing(Step):
         elif command.among:
             parts = [part_of(command, name, command.source) for name in command.among]
         else:
-            parts = [part_of(command, name, "") for name in self._meant(command)]
+            parts = [part_of(command, name, "") for name in which_of_all(self.context, command)]
         if not parts:
             near = nearest(self.context, command.target)
             return self.fail(unresolved(self.context, command.target, near))
@@ -101,18 +167,19 @@ class EachThing(Step):
         self.situation.agenda.split(command, parts, min(wanted, len(parts)), unseen)
         return self.succeed(", ".join(part.target for part in parts))
 
-    def _meant(self, command: Command) -> Sequence[str]:
-        """All things that the words mean.
 
-        If they are to be put back, only those that the robot has taken, if it took any. Of a plural
-        like "the fruits", only those that were just seen, if any were.
-        """
-        names, nearer = things_meant(self.context, command), list[str]()
-        if command.kind == CommandKind.PUT_BACK:
-            nearer = [name for name in names if taken_from(self.context, name)]
-        elif command.plural:
-            nearer = [name for name in names if name in just_seen(self.context)]
-        return nearer or names
+def which_of_all(context: MissionContext, command: Command) -> tuple[str, ...]:
+    """All things that the words mean.
+
+    If they are to be put back, only those that the robot has taken, if it took any. Of a plural
+    like "the fruits", only those that were just seen, if any were.
+    """
+    names, nearer = things_meant(context, command), tuple[str, ...]()
+    if command.kind == CommandKind.PUT_BACK:
+        nearer = tuple(name for name in names if taken_from(context, name))
+    elif command.plural:
+        nearer = tuple(name for name in names if name in just_seen(context))
+    return nearer or names
 
 
 def part_of(command: Command, name: str, place: str) -> Command:

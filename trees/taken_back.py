@@ -3,7 +3,7 @@
 import re
 from dataclasses import replace
 
-from executive.language.answers import picked
+from executive.language.answers import picked, things_in
 from executive.language.commands import THING
 from executive.language.meaning import Answer, Refusal, Request
 from executive.language.wording import either
@@ -25,9 +25,9 @@ _ALL = re.compile(
 def refused(context: MissionContext, words: str, at_hand: Command | None) -> str:
     """Do nothing that the words are about, now or later; empty if none of it was to be done."""
     if at_hand and _REST.search(words.lower()):
-        return _nothing_more(context, named_in(context, words))
+        return _nothing_more(context, _named(context, words))
     agenda = context.situation.agenda
-    named = named_in(context, words) or _of_those_asked_for(context, words, at_hand)
+    named = _named(context, words) or _of_those_asked_for(context, words, at_hand)
     everything = not named and _means_all(words)
     breath = at_hand.words if at_hand and not named and _SEVERAL & _words(words) else None
     waiting = [
@@ -35,14 +35,14 @@ def refused(context: MissionContext, words: str, at_hand: Command | None) -> str
         for task in agenda.tasks
         if everything or task.command.words == breath or named & objects_of(context, task.command)
     ]
-    is_part = any(task.depth for task in waiting) and bool(named)
+    is_now = context.situation.request.object in named
+    is_part = bool(named) and not is_now and any(task.depth for task in waiting)
     left_out: list[Command] = []
-    is_now = not is_part or context.situation.request.object in named
     if at_hand and not is_part and (others := _others(context, at_hand, named)):
         for task in waiting:
             _leave_out(context, task, named)
         return replaced(context, ((others,),))
-    if at_hand and is_now and is_about(context, words, at_hand):
+    if at_hand and not is_part and is_about(context, words, at_hand):
         agenda.take_back()
         context.situation.request.command = at_hand
         left_out.append(at_hand)
@@ -51,6 +51,13 @@ def refused(context: MissionContext, words: str, at_hand: Command | None) -> str
             left_out.append(_leave_out(context, task, named))
     wishes = [in_one_sentence(context, command) for command in left_out]
     return f"Then I do not {either(wishes)}.{still_held(context)}" if wishes else ""
+
+
+def _named(context: MissionContext, words: str) -> set[str]:
+    """The things that words name, less those that they except: "all the fruit but the pear"."""
+    things = things_in(context.interpreter.read(words))
+    excepted = [but.words for but in things.exceptions if not but.alone] if things else []
+    return named_in(context, words) - named_in(context, " or ".join(excepted))
 
 
 def _nothing_more(context: MissionContext, named: set[str]) -> str:
@@ -128,7 +135,7 @@ def _leave_out(context: MissionContext, task: Task, named: set[str]) -> Command:
 def is_about(context: MissionContext, words: str, at_hand: Command) -> bool:
     """Whether it is the task at hand that is not to be done."""
     request = context.situation.request
-    if named := named_in(context, words) or _of_those_asked_for(context, words, at_hand):
+    if named := _named(context, words) or _of_those_asked_for(context, words, at_hand):
         return request.object in named or bool(named & objects_of(context, at_hand))
     return _means_all(words) or bool(_IT & _words(words))
 

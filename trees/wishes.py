@@ -84,10 +84,20 @@ def _same(command: Command, others: Sequence[Command]) -> bool:
 
 
 def added(context: MissionContext, commands: Commands | str | None, now: str) -> str:
-    """Do these afterwards."""
+    """Do these afterwards; what is said twice is done once."""
     if not isinstance(commands, tuple):
         return commands or f"I do not understand that. {now}"
-    context.situation.agenda.add(commands)
+    agenda = context.situation.agenda
+    at_hand = agenda.whole_of(context.situation.request.command)
+    match commands:
+        case [[Command() as command]] if len(objects_of(context, command)) == 1:
+            waiting = [task.command for task in agenda.whole_tasks]
+            if not waiting and at_hand and _same(command, (at_hand,)):
+                return now
+            if not _same(command, waiting[-1:]):
+                agenda.add(commands)
+        case _:
+            agenda.add(commands)
     return f"All right: I {in_one_breath(context, chain.from_iterable(commands))} afterwards."
 
 

@@ -34,7 +34,7 @@ from executive.situation import FIRST, Ending, Situation
 from executive.text import one_line, too_long, writable
 from executive.types.goals import Halt
 from executive.types.outcome import MissionStatus, Outcome
-from executive.user import NOTHING_TO_STOP, Console
+from executive.user import Console, at_rest
 from logs.recorder import FanOut, Sink
 
 CLOSED = (
@@ -312,7 +312,7 @@ class Session:
         if control(situation.request.words):  # "stop", and there is nothing to stop
             self.inbox.post(StopRequested(f"{THE_PERSON} before anything began"))
             user = GuardedUser(self.parts.user, self.inbox, self.recorder)
-            user.tell(NOTHING_TO_STOP)
+            user.tell(at_rest(situation.request.words))
         try:
             executive.run()
         finally:

@@ -52,7 +52,10 @@ def one_of_kind(things: Things, kind: str, number: int | None = 1) -> Things | N
 
 
 def in_place_of(task: Task, things: Things) -> Task:
-    """The task with other things; a number alone is of the same kind, a name may be a place."""
+    """The task with other things; a number alone is of the same kind, a name may be a place.
+
+    "All" is, too, but not "everything".
+    """
     if task.things is None and task.goal:  # "go to the kitchen", "no, the bedroom"
         return replace(
             task, goal=replace(task.goal, words=" or ".join(t.words for t in things.members))
@@ -62,7 +65,9 @@ def in_place_of(task: Task, things: Things) -> Task:
     if one := one_of_kind(things, kind, number):  # "no, one"
         return replace(task, things=one)
     members = tuple(
-        t if t.words or t.pronoun else replace(t, words=kind, said=f"{t.said} {kind}")
+        t
+        if t.words or t.pronoun or t.said == "everything"
+        else replace(t, words=kind, said=f"{t.said} {kind}")
         for t in things.members
     )
     return replace(task, things=replace(things, members=members))

@@ -2,7 +2,16 @@
 
 from collections.abc import Sequence
 
-from executive.language.meaning import Answer, Choice, Correction, Request, Said, Thing, Things
+from executive.language.meaning import (
+    Answer,
+    Choice,
+    Correction,
+    Request,
+    Said,
+    Task,
+    Thing,
+    Things,
+)
 from executive.language.phrases import spoken
 
 
@@ -42,14 +51,19 @@ def how_many_of(said: Answer) -> int:
 
 def named(said: Said) -> str:
     """The words for the things that an answer names: "no, the pear" -> "pear"; empty if none."""
+    things = things_in(said.meant if isinstance(said, Correction) else said)
+    members = things.members if things else ()
+    return " or ".join(_words(thing) for thing in members if not thing.pronoun)
+
+
+def things_in(said: Said | Things | None) -> Things | None:
+    """The things that an answer, or one task, is about; None if there are none, or several."""
     match said:
-        case Answer(things=Things() as things) | Correction(meant=Things() as things):
-            pass
-        case Request(tasks=[task]) | Correction(meant=Request(tasks=[task])) if task.things:
-            things = task.things
-        case _:
-            return ""
-    return " or ".join(_words(thing) for thing in things.members if not thing.pronoun)
+        case Answer(things=things) | Request(tasks=[Task(things=things)]):
+            return things
+        case Things():
+            return said
+    return None
 
 
 def _words(thing: Thing) -> str:

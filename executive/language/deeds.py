@@ -6,7 +6,7 @@ from dataclasses import replace
 from lark import Token
 
 from executive.language.folding import is_it
-from executive.language.meaning import ME, SO, THERE, Request, Task, Thing, Things, Where
+from executive.language.meaning import ME, SO, THERE, Relation, Request, Task, Thing, Things, Where
 from executive.language.nouns import Nouns
 from executive.language.parts import (
     Absent,
@@ -22,7 +22,7 @@ from executive.language.parts import (
     is_a,
     purpose_of,
 )
-from executive.types.commands import CommandKind
+from executive.types.commands import ALL, CommandKind
 
 _ELSEWHERE = (
     CommandKind.GO,
@@ -156,7 +156,7 @@ class Deeds(Nouns):
     def clear(self, parts: list[Part]) -> Task:
         """As in "clear the table", "clear the mugs from the table"."""
         task = _task(CommandKind.CLEAR, parts)
-        if task.source is None and task.things:
+        if task.source is None and task.things and any(t.words for t in task.things.members):
             if task.things.one_of:
                 raise Unfit(task.things.members[-1].words)
             places = either_of([Where(thing.words) for thing in task.things.members])
@@ -341,9 +341,11 @@ def _task(verb: CommandKind, parts: list[Part], *, goes: bool = False) -> Task:
             if goes and last == "goal":  # "what is on the desk into the fridge"
                 places["source"] = places.pop("goal")
         elif isinstance(part, Where | From):
-            role = "goal" if goes else "source"
+            role = "goal" if goes and (places or not _says_where(things)) else "source"
             place = part if isinstance(part, Where) else part.place
-            if last and (role in places or last == "goal"):
+            if goes and [*places] == ["goal"] and _is_on_another(place, things):
+                places["source"] = places.pop("goal")
+            elif last and (role in places or last == "goal"):
                 places[last] = replace(places[last], within=_inner(places[last].within, place))
                 inner += 1
                 if inner > MOST_INNER:
@@ -358,6 +360,16 @@ def _task(verb: CommandKind, parts: list[Part], *, goes: bool = False) -> Task:
         raise Unfit(places["goal"].words)
     said = next((str(p) for p in parts if isinstance(p, Token)), "")
     return Task(verb, things, places.get("source"), places.get("goal"), said=said)
+
+
+def _says_where(things: Things | None) -> bool:
+    """Whether it ends so that where they are has to follow: "everything that is"."""
+    return things is not None and things.members[-1].said.endswith(" is")
+
+
+def _is_on_another(place: Where, things: Things | None) -> bool:
+    """Whether the place before it is where things are: "put all on the desk on the sofa"."""
+    return place.relation == Relation.ON and things is not None and things.members[0].number == ALL
 
 
 def _inner(within: Where | None, place: Where) -> Where:

@@ -12,6 +12,7 @@ from patience import PATIENCE_S
 
 from executive.config import Settings
 from executive.events import THE_PERSON, Ended, Event, Heard, Inbox, StopRequested
+from executive.language.commands import NOT_KEPT, WILL_NOT
 from executive.text import LONGEST
 from executive.types.dialogue import Question, QuestionKind
 from executive.types.outcome import MissionStatus, Outcome
@@ -137,6 +138,19 @@ def test_at_the_prompt_there_is_nothing_to_stop(person: Person) -> None:
     person.hears("STOP", NOTHING_TO_STOP)
     assert person.inbox.is_open(request)
     assert not person.inbox.has_events
+
+
+@pytest.mark.parametrize("words", ["Don't go into the bedroom", "Stay out of the kitchen"])
+def test_at_the_prompt_what_is_never_to_be_done_is_not_promised(person: Person, words: str) -> None:
+    person.console.listen()
+    person.hears(words, f"{WILL_NOT}{NOT_KEPT}")
+    assert not person.inbox.has_events
+
+
+@pytest.mark.parametrize("words", ["Don't move", "forget it", "Do not!"])
+def test_at_the_prompt_a_stop_in_other_words_is_one(person: Person, words: str) -> None:
+    person.console.listen()
+    person.hears(words, NOTHING_TO_STOP)
 
 
 def test_quit_at_the_prompt_ends_the_session(person: Person) -> None:

@@ -11,7 +11,7 @@ from executive.replay.replaying import replay
 from executive.testing.bench import Run, run_mission
 from executive.types.goals import DriveTo, Goal, Pick, PutDown
 from executive.types.outcome import MissionStatus
-from executive.user import Oracle
+from executive.user import Oracle, Scripted
 from kb.facts import FactStore
 from logs.recording.reader import Run as Recorded
 
@@ -66,6 +66,67 @@ def test_all_of_a_kind_are_brought_but_for_those_that_are_left_out() -> None:
 def test_all_that_is_seen_at_a_place_is_meant_if_one_is_named() -> None:
     here = run("Put everything from the coffee table on the sofa")
     assert (on(here, "sofa"), on(here, "coffee_table")) == ({"mug", "pudding_box"}, set())
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "Put everything on the coffee table on the sofa",
+        "Put everything that is on the coffee table on the sofa",
+    ],
+)
+def test_of_two_places_of_everything_the_first_is_where_it_is(words: str) -> None:
+    here = run(words)
+    assert (on(here, "sofa"), on(here, "coffee_table")) == ({"mug", "pudding_box"}, set())
+
+
+def asked(run: Run) -> list[str]:
+    assert isinstance(run.user, Scripted)
+    return [question.text for question in run.user.asked]
+
+
+@pytest.mark.parametrize(
+    ("words", "number"),
+    [
+        ("Bring everything", 22),
+        ("Bring all things but the apple", 21),
+        ("Put everything on the sofa", 22),
+        ("Put everything back", 22),
+    ],
+)
+def test_whether_all_that_there_is_is_meant_is_asked(words: str, number: int) -> None:
+    refused = run(words, answers=["no"])
+    assert asked(refused) == [f"Do you mean all {number} things that I know, wherever they are?"]
+    assert (refused.outcome.status, refused.goals) == (NOT_DONE, [])
+
+
+@pytest.mark.parametrize("answer", ["the mug and the pear", "no, only the mug and the pear"])
+def test_instead_of_all_that_there_is_some_may_be_named(answer: str) -> None:
+    some = run("Bring everything", answers=[answer], search="plan")
+    assert (some.outcome.status, on(some, "delivery")) == (DONE, {"mug", "pear"})
+
+
+@pytest.mark.parametrize("answer", ["yes", "all of them"])
+def test_all_that_there_is_is_brought_if_it_is_meant(answer: str) -> None:
+    all_ = run("Bring everything", answers=[answer], search="plan")
+    assert (all_.outcome.status, len(on(all_, "delivery"))) == (DONE, 22)
+
+
+def test_where_several_things_are_to_go_is_asked_once() -> None:
+    fruits = run("Put the fruits", answers=["on the sofa"], search="plan")
+    assert asked(fruits) == ["Where shall I put them?"]
+    assert (fruits.outcome.status, len(on(fruits, "sofa"))) == (DONE, 6)
+
+
+def test_what_is_to_be_cleared_has_a_place_or_a_name() -> None:
+    cleared = run("Clear everything", answers=[])
+    assert (asked(cleared), cleared.goals) == ([], [])
+    assert "only at a place" in cleared.outcome.reason
+
+
+def test_all_of_those_that_were_offered_may_be_meant_after_a_no() -> None:
+    all_ = run("Bring a fruit", answers=["no, all of them"], search="plan")
+    assert (all_.outcome.status, len(on(all_, "delivery"))) == (DONE, 6)
 
 
 @pytest.mark.parametrize("words", ["Bring either the mug or the pear", "Bring the pear or the mug"])
@@ -376,3 +437,8 @@ def test_what_else_is_to_be_done_if_it_is_not_found_is_done_only_then(search: st
     shut = {DriveTo("coffee_table"): "the way is blocked"}
     other = run(words, search=search, answers=answers, fault=shut.get)
     assert (other.outcome.status, on(other, "delivery")) == (DONE, {"pear"})
+
+
+def test_what_has_no_name_but_a_colour_is_asked_about_in_plain_words() -> None:
+    red = run("Bring me something red", answers=[])
+    assert asked(red)[0].startswith("Which do you mean: the apple, the strawberry,")

@@ -115,6 +115,11 @@ def test_forgetting_what_nobody_knows_ends_all() -> None:
         ("just the hammer, please", {"hammer"}),
         ("no, just the mug", {"mug"}),
         ("only the pear", {"pear"}),
+        ("forget all but the mug", {"mug"}),
+        ("skip everything except the hammer", {"hammer"}),
+        ("do not bring anything but the mug", {"mug"}),
+        ("no, all but the mug", {"hammer"}),
+        ("no, everything but the hammer", {"mug"}),
     ],
 )
 def test_only_this_is_nothing_else(words: str, brought: set[str]) -> None:
@@ -129,6 +134,41 @@ def test_only_this_of_several_is_not_all_of_them(wanted: str, words: str) -> Non
     mission = run(wanted, words)
     brought = [x for x, at in mission.world.things.items() if at == "delivery"]
     assert brought == ["pear"]
+
+
+@pytest.mark.parametrize("again", ["Bring the mug", "bring me the mug, please", "And the mug"])
+def test_what_is_asked_for_twice_is_done_once(again: str) -> None:
+    mission = run("Bring the mug", again)
+    assert "I drive to the coffee table, to bring the mug." in answers(mission)
+    assert tasks(mission) == [("bring", "mug", DONE)]
+
+
+def test_what_waits_and_is_asked_for_again_is_done_once() -> None:
+    mission = run("Bring the hammer, then the mug", "bring the mug")
+    assert tasks(mission) == [("bring", "hammer", DONE), ("bring", "mug", DONE)]
+
+
+def test_what_was_put_back_meanwhile_is_brought_again() -> None:
+    mission = run("Bring the mug, then put it back", "Bring the mug")
+    assert [kind for kind, _, _ in tasks(mission)] == ["bring", "put_back", "bring"]
+    assert mission.world.resting_place("mug") == "delivery"
+
+
+@pytest.mark.parametrize(
+    ("words", "left_out"),
+    [
+        ("forget the apple and the banana", {"apple", "banana"}),
+        ("forget all the fruit but the pear and the orange", {"apple", "banana", "peach"}),
+    ],
+)
+@pytest.mark.parametrize("at", [1, 6])
+def test_some_of_all_are_forgotten_and_the_others_are_brought(
+    words: str, left_out: set[str], at: int
+) -> None:
+    mission = run("Bring all the fruit", words, at)
+    brought = {x for x, place in mission.world.things.items() if place == "delivery"}
+    assert not left_out - {"apple"} & brought  # the apple was there by then, or in the hand
+    assert {"orange", "pear"} <= brought
 
 
 @pytest.mark.parametrize("words", ["leave the mug", "not the mug", "leave the mug there"])

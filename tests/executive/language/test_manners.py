@@ -14,6 +14,10 @@ read = EnglishInterpreter()
     [
         "could you be so kind as to bring me the banana",
         "Be a dear and bring me the banana",
+        "Could you be a star and bring me the banana",
+        "I'd be ever so grateful if you could bring me the banana",
+        "Sorry to bother you, but could you bring me the banana",
+        "Sorry for disturbing you, bring me the banana",
         "hey robot would you mind bringing me the banana",
         "Would you be able to bring me the banana, please?",
         "um can you uh get me the uh banana",
@@ -141,6 +145,8 @@ def test_what_is_to_be_done_at_a_set_time_is_not_done_at_once(when: str) -> None
     [
         ("What is a spatula?", About.KNOWN),
         ("what colour is the mug", About.KNOWN),
+        ("is the mug red or green", About.KNOWN),
+        ("are the scissors clean or dirty", About.KNOWN),
         ("What is the hammer for?", About.KNOWN),
         ("Where do you keep the mugs?", About.KNOWN),
         ("Where does the mug belong?", About.KNOWN),

@@ -14,6 +14,7 @@ read = EnglishInterpreter()
         ("Put the mug with the pear", "next to pear"),
         ("Put the mug on the same table as the pear", "next to pear"),
         ("Take the mug to the kitchen and wait there", "kitchen"),
+        ("After that, take the mug to the kitchen and wait", "kitchen"),
     ],
 )
 def test_where_a_thing_goes_may_be_where_another_one_is(words: str, goal: str) -> None:
