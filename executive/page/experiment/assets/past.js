@@ -14,6 +14,7 @@ const AGAIN_MS = 1500;
 const SIDES = 2;
 const picked = new Set();
 let waiting = 0;
+let asked = 0;
 
 /** `open(run)` shows one, `both(one, other)` two side by side. */
 export function past(open, both) {
@@ -29,11 +30,15 @@ export function past(open, both) {
   return () => list(open);
 }
 
+/** What was asked for before, and comes later, is not shown. */
 async function list(open) {
+  const number = ++asked;
   let told;
   try {
     told = await ask("runs", { words: find.value, status: status.value });
+    if (number !== asked) return;
   } catch (error) {
+    if (number !== asked) return;
     found.textContent = error.message;
     waiting = setTimeout(() => list(open), AGAIN_MS);
     return;

@@ -127,6 +127,21 @@ def test_on_a_phone_it_is_read_in_lines_that_no_run_was_found(
         assert (told.bounding_box() or {})["width"] > PHONE["width"] / 2
 
 
+def test_a_list_that_was_asked_for_before_is_not_shown_later(browser: Browser, busy: Robot) -> None:
+    late: list[Route] = []
+    with desk(browser, busy) as tab:
+        tab.route(
+            "**/experiment/runs*", lambda route: route.continue_() if late else late.append(route)
+        )
+        tab.get_by_role("button", name="Past runs").click()
+        tab.get_by_label("Words", exact=True).fill("peach done")
+        expect(tab.locator("#runs tbody tr")).to_have_count(1)
+        with tab.expect_response("**/experiment/runs*"):
+            late[0].continue_()
+        tab.wait_for_timeout(200)
+        assert tab.locator("#runs tbody tr").count() == 1
+
+
 def test_a_run_is_held_against_todays_tree(browser: Browser, busy: Robot) -> None:
     with desk(browser, busy) as tab:
         open_past(tab, "peach done")
