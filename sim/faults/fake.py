@@ -1,4 +1,4 @@
-"""The robot of the instant world with faults: the same faults, as far as they make sense there."""
+"""The robot of the instant world with faults, as far as these make sense without physics."""
 
 from collections.abc import Callable
 
@@ -13,21 +13,21 @@ from sim.home.floorplan import doors_between
 
 
 class FaultyFakeRobot(FakeRobot):
-    """Implements Robot in an instant world that misbehaves whenever a goal ends."""
+    """Implements Robot in the instant world; faults strike when a goal ends."""
 
     def __init__(self, world: FakeWorld, injector: FaultInjector) -> None:
-        """Stand where the world says."""
+        """Begin at the world's start pose; `injector` has the faults."""
         super().__init__(world)
         self._injector = injector
 
     def _plan(self, goal: Goal | GoTo) -> tuple[float, Callable[[], Result]]:
         delay, effect = super()._plan(goal)
 
-        def troubled() -> Result:
+        def with_faults() -> Result:
             self._move_things()
-            return self._trouble(goal) or effect()
+            return self._failure(goal) or effect()
 
-        return delay, troubled
+        return delay, with_faults
 
     def _move_things(self) -> None:
         for fault in self._injector.due(Moved):
@@ -37,10 +37,11 @@ class FaultyFakeRobot(FakeRobot):
                 self._injector.strike(fault, f"the {fault.thing} is taken to {fault.place}")
                 self._world.things[fault.thing] = fault.place
 
-    def _trouble(self, goal: Goal | GoTo) -> Failed | None:
+    def _failure(self, goal: Goal | GoTo) -> Failed | None:
+        """How faults make the goal fail; None if they do not."""
         match goal:
             case DriveTo(place):
-                return self._dropped() or self._shut_out(place)
+                return self._dropped() or self._blocked(place)
             case GoTo():
                 return self._dropped()
             case Pick(detection):
@@ -60,8 +61,8 @@ class FaultyFakeRobot(FakeRobot):
         self._world.things[held] = FLOOR
         return Failed(f"the {held} fell from my hand", lost=True)
 
-    def _shut_out(self, place: str) -> Failed | None:
-        """Whether shut doors leave no way; where the robot comes by, they count as struck."""
+    def _blocked(self, place: str) -> Failed | None:
+        """Fail if shut doors leave no way to a place; then they count as struck."""
         shut = self._injector.active(Blocked)
         if not shut or not self._knows(place):
             return None
@@ -89,7 +90,7 @@ class FaultyFakeRobot(FakeRobot):
         return next((room.name for room in rooms if room.holds(*point)), None)
 
     def _rooms_from(self, start: str | None, shut: tuple[Blocked, ...]) -> set[str | None]:
-        """The rooms to which open doors lead."""
+        """The rooms that can be reached through doors that are not shut."""
         home, closed = self._world.home, [set(fault.rooms) for fault in shut]
         open_ways = [set(rooms) for rooms in doors_between(home.rooms, home.doors).values()]
         open_ways = [rooms for rooms in open_ways if rooms not in closed]

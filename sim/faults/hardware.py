@@ -1,4 +1,4 @@
-"""A robot whose joints get stuck, whose fingers slip, and whose hand lets go."""
+"""Faults of the robot's hardware: joints get stuck, fingers slip, and the hand lets go."""
 
 import numpy as np
 
@@ -10,25 +10,25 @@ from sim.faults.injector import FaultInjector
 from sim.faults.orders import Drop, Slip, Stuck
 
 GREASY = 0.01
-"""Lateral friction of a pad that slips."""
+"""Lateral friction coefficient of a finger pad that slips."""
 _ON_THE_WAY_M_S = (CREEPING.speed + CARRYING.speed) / 2
-"""Faster than this with a thing in the hand, the robot is on its way with it."""
+"""With an object in the hand, a robot faster than this is transporting it."""
 
 
 class FaultyHardware(Hardware):
-    """Hardware with faults."""
+    """Hardware with the faults `Drop`, `Slip` and `Stuck`."""
 
     def __init__(
         self, client: BulletClient, start: tuple[float, float, float], injector: FaultInjector
     ) -> None:
-        """Put the robot, folded, at (x, y, yaw) in `map`."""
+        """Load the robot at (x, y, yaw) in `map`, with the arm folded."""
         self._injector = injector
         self._stuck_at: dict[Stuck, float] = {}
         super().__init__(client, start)
         self._friction = [client.getDynamicsInfo(self.body, pad)[1] for pad in self._fingers]
 
     def misbehave(self) -> None:
-        """What happens by itself; called once per control period."""
+        """Apply the faults that need no command; called once per control period."""
         self._stick()
         for fault in self._injector.due(Drop):
             if self.touched() and np.hypot(*self.base_velocity[:2]) > _ON_THE_WAY_M_S:
@@ -36,20 +36,20 @@ class FaultyHardware(Hardware):
                 super().open_fingers(2 * FINGER_TRAVEL)
 
     def command_arm(self, positions: Floats, velocities: Floats) -> None:
-        """Servo the joints that are not stuck."""
+        """Servo the joints; stuck ones stay where they are."""
         positions, velocities = positions.copy(), velocities.copy()
         for fault, position in self._stuck_at.items():
             positions[fault.index], velocities[fault.index] = position, 0.0
         super().command_arm(positions, velocities)
 
     def squeeze(self, force: float) -> None:
-        """Close the fingers; now and then there is grease on them."""
+        """Close the fingers, with little friction if they slip."""
         if self._injector.draw(Slip, "the fingers slip"):
             self._use_friction([GREASY] * len(self._fingers))
         super().squeeze(force)
 
     def open_fingers(self, gap: float) -> None:
-        """Move the fingers to this gap, and wipe them."""
+        """Move the fingers to a gap (metres), and restore their friction."""
         if hasattr(self, "_friction"):
             self._use_friction(self._friction)
         super().open_fingers(gap)

@@ -1,7 +1,7 @@
-"""Faults at work: when they strike, and how senses, motors and the world then behave.
+"""Fault injection: decides when faults strike, and wraps cameras and detectors to apply them.
 
-Everything here wraps a part that knows nothing of faults. Whatever strikes is recorded as a
-`Mishap`, for the reader of the log; nobody on the robot hears of it.
+The wrapped parts know nothing of faults. A fault that strikes is recorded as a `Mishap` for the
+reader of the log; the executive is not told.
 """
 
 from collections.abc import Callable, Sequence
@@ -23,12 +23,12 @@ R = TypeVar("R", bound=Rated)
 
 
 class FaultInjector:
-    """Which faults are at work now. Each draws from chances of its own, which the seed sets."""
+    """Tells which faults are active now. Each has its own random generator, seeded by `seed`."""
 
     def __init__(
         self, faults: Sequence[Fault], recorder: Recorder, now: Callable[[], float], seed: int = 0
     ) -> None:
-        """Have these faults strike, by mission time as `now` tells it (s)."""
+        """Inject these faults; `now` returns the mission time (s)."""
         self._recorder = recorder
         self._now = now
         self._chances = {
@@ -37,29 +37,37 @@ class FaultInjector:
         self._struck: set[Fault] = set()
 
     def begin(self) -> None:
-        """A mission begins: what strikes once may strike again."""
+        """Begin a mission: faults that strike once may strike again."""
         self._struck.clear()
 
     def ordered(self, kind: type[F]) -> tuple[F, ...]:
-        """All faults of a kind, whenever they are."""
+        """All faults of a kind, at whatever time."""
         return tuple(fault for fault in self._chances if isinstance(fault, kind))
 
     def active(self, kind: type[F]) -> tuple[F, ...]:
-        """Those that are at work now."""
+        """The faults of a kind that are active now."""
         time = self._now()
         return tuple(fault for fault in self.ordered(kind) if time in fault.during)
 
     def due(self, kind: type[F]) -> tuple[F, ...]:
-        """Those at work that have not struck in this mission."""
+        """The active faults of a kind that have not struck in this mission."""
         return tuple(fault for fault in self.active(kind) if fault not in self._struck)
 
     @property
     def spoils_pictures(self) -> bool:
-        """Whether pictures are ever other than what is to be seen."""
+        """Whether any fault changes pictures, at whatever time."""
         return bool(self.ordered(Blind) or self.ordered(Noise))
 
     def draw(self, kind: type[R], what: str) -> R | None:
-        """Whether one that strikes by chance does so now, upon `what`."""
+        """Draw at random whether a fault of this kind strikes now.
+
+        Args:
+            kind: the kind of fault.
+            what: what it does, for the record.
+
+        Returns:
+            The fault that strikes, or None.
+        """
         for fault in self.active(kind):
             if self._chances[fault].random() < fault.rate:
                 self.strike(fault, what)
@@ -67,25 +75,25 @@ class FaultInjector:
         return None
 
     def chance(self, fault: Fault) -> np.random.Generator:
-        """Where a fault draws its chances from."""
+        """The random generator of a fault."""
         return self._chances[fault]
 
     def strike(self, fault: Fault, what: str) -> None:
-        """Record what a fault does, and that it has struck."""
+        """Record what a fault does, and remember that it has struck."""
         self._struck.add(fault)
         afterwards(partial(self._recorder.record, Mishap(str(fault), what)))
 
 
 class FaultyCamera:
-    """A Camera that may be blind or noisy."""
+    """A Camera with the faults `Blind` and `Noise`."""
 
     def __init__(self, camera: Camera, injector: FaultInjector) -> None:
-        """Spoil the pictures of `camera`."""
+        """Apply faults to the pictures of `camera`."""
         self._camera = camera
         self._injector = injector
 
     def capture(self) -> Frame:
-        """The picture of this moment, as far as there is one."""
+        """Take a picture, with the faults that are active now."""
         frame = self._camera.capture()
         for fault in (*self._injector.due(Blind), *self._injector.due(Noise)):
             self._injector.strike(fault, "the camera's pictures are spoilt")
@@ -97,24 +105,21 @@ class FaultyCamera:
 
 
 class FaultyDetector:
-    """A Detector that may overlook and confuse things, and sees nothing where the camera is blind.
-
-    What it takes a thing for is one of `names`.
-    """
+    """A Detector with the faults `Miss` and `Confuse`, which sees nothing during `Blind`."""
 
     def __init__(self, detector: Detector, injector: FaultInjector, names: Sequence[str]) -> None:
-        """Spoil what `detector` finds."""
+        """Apply faults to the detections of `detector`; confused labels are from `names`."""
         self._detector = detector
         self._injector = injector
         self._names = names
 
     @property
     def labels(self) -> frozenset[str] | None:
-        """What it may call what it sees; None: anything."""
+        """The labels that the detector can return; None if it may return any."""
         return getattr(self._detector, "labels", None)
 
     def detect(self, frame: Frame) -> tuple[Detection, ...]:
-        """What it makes of the picture."""
+        """Detect objects, with the faults that are active now."""
         if self._injector.active(Blind):
             return ()
         seen = (d for d in self._detector.detect(frame) if not self._overlooks(d))

@@ -1,9 +1,9 @@
-"""What can be told to go wrong in the world, and when: `moved=mug:desk@12`, `blind@20-40`.
+"""The kinds of faults that can be injected, and their syntax: `moved=mug:desk@12`, `blind@20-40`.
 
     WORD[=VALUE][@FROM[-TO]]        times in seconds of the mission; without any: always
 
-Here they are only words and values. `injector` has them strike, on the world, the senses and the
-motors. The behaviour tree never hears of a fault, only of what comes of it.
+This module only parses and checks them. `injector` applies them to the world, the sensors and the
+motors. The behaviour tree is never told of a fault; it only sees the consequences.
 """
 
 import math
@@ -19,22 +19,22 @@ from sim.home.floorplan import doors_between
 from sim.home.home import Home
 
 JOINTS = ("lift", *(f"joint{i}" for i in range(1, 8)))
-"""What can be stuck, in the order of `sim.body.hardware.ARM`."""
+"""The joints that can get stuck, in the order of `sim.body.hardware.ARM`."""
 
 
 @dataclass(frozen=True, slots=True)
 class Span:
-    """From when to when (mission time, s)."""
+    """An interval of mission time (s): `start` is included, `end` is not."""
 
     start: float = 0.0
     end: float = math.inf
 
     @classmethod
     def parse(cls, text: str) -> Self:
-        """Read `12` or `12-40`.
+        """Parse `12` or `12-40`.
 
         Raises:
-            ValueError: if it is neither.
+            ValueError: if the text is neither.
         """
         start, dash, end = text.partition("-")
         span = cls(_number(start), _number(end) if dash else math.inf)
@@ -43,20 +43,24 @@ class Span:
         return span
 
     def __contains__(self, time_s: float) -> bool:
-        """Whether a time is within."""
+        """Whether a time (s) is in the interval."""
         return self.start <= time_s < self.end
 
     def __str__(self) -> str:
-        """As it is parsed; empty if it is always."""
+        """The text that `parse` reads, with `@` before it; empty if the fault is always active."""
         end = "" if self.end == math.inf else f"-{self.end:g}"
         return f"@{self.start:g}{end}" if self != Span() else ""
 
 
 @dataclass(frozen=True, slots=True)
 class Fault:
-    """Something that goes wrong by order.
+    """A fault to inject.
 
-    `word` and `example` say how it is written; what is `physical` is not in the instant world.
+    Attributes:
+        word: its name in the syntax.
+        example: a valid text, for messages.
+        physical: whether it needs the physics world.
+        during: when it is active.
     """
 
     word: ClassVar[str]
@@ -67,29 +71,29 @@ class Fault:
 
     @property
     def value(self) -> str:
-        """What is written after the equals sign; empty if nothing is."""
+        """The text after the equals sign; empty if there is none."""
         return ""
 
     @classmethod
     def parse(cls, value: str, during: Span) -> Self:
-        """Read the value.
+        """Parse the value.
 
         Raises:
-            ValueError: if it is no value of this fault.
+            ValueError: if the value is not valid for this fault.
         """
         if value:
             raise ValueError(f"{cls.word} takes no value")
         return cls(during=during)
 
     def check(self, home: Home) -> None:
-        """See whether the home has what the fault is about.
+        """Check that the home has the objects, places or rooms that the fault names.
 
         Raises:
-            ValueError: if it has not, saying what it has.
+            ValueError: if not; the text lists what the home has.
         """
 
     def __str__(self) -> str:
-        """As it is parsed."""
+        """The text that `parse_fault` reads."""
         equals = f"={self.value}" if self.value else ""
         return f"{self.word}{equals}{self.during}"
 
@@ -99,7 +103,7 @@ class Fault:
 
 @dataclass(frozen=True, slots=True)
 class Moved(Fault):
-    """Someone takes a thing elsewhere, unless the robot has it."""
+    """A person takes an object to another place, unless the robot holds it."""
 
     word: ClassVar[str] = "moved"
     example: ClassVar[str] = "moved=mug:desk@12"
@@ -108,19 +112,19 @@ class Moved(Fault):
 
     @property
     def value(self) -> str:
-        """Thing and place."""
+        """Object and place."""
         return f"{self.thing}:{self.place}"
 
     @classmethod
     def parse(cls, value: str, during: Span) -> Self:
-        """Read `mug:desk`."""
+        """Parse `mug:desk`."""
         thing, colon, place = value.partition(":")
         if not (thing and colon and place):
             raise ValueError("should name a thing and a place")
         return cls(thing, place, during=during)
 
     def check(self, home: Home) -> None:
-        """Both must exist, and the thing fit there."""
+        """Both must exist, and there must be room for the object."""
         if self.thing not in home.objects:
             raise ValueError(f"there is no {self.thing} in this home; there is {_of(home.objects)}")
         places = (*(piece.name for piece in home.furniture), DELIVERY)
@@ -132,10 +136,10 @@ class Moved(Fault):
             raise ValueError(str(error)) from None
 
     def pose(self, home: Home) -> Pose:
-        """Where the thing is put, in `map`: on a spot that none of the others has at the start.
+        """The object's new pose in `map`, on a spot that no other object has at the start.
 
         Raises:
-            NoRoomError: if there is none.
+            NoRoomError: if there is no free spot.
         """
         others = {name: spot for name, spot in home.objects.items() if name != self.thing}
         objects = {**others, self.thing: home.objects[self.thing].moved(self.place)}
@@ -157,7 +161,7 @@ class Blocked(Fault):
 
     @classmethod
     def parse(cls, value: str, during: Span) -> Self:
-        """Read `kitchen-lobby`."""
+        """Parse `kitchen-lobby`."""
         one, dash, other = value.partition("-")
         if not (one and dash and other):
             raise ValueError("should name the two rooms of a door")
@@ -173,7 +177,7 @@ class Blocked(Fault):
 
 @dataclass(frozen=True, slots=True)
 class Crate(Fault):
-    """Someone puts a crate down on the floor, at a point of `map` (metres)."""
+    """A person puts a crate on the floor, at a point of `map` (metres)."""
 
     word: ClassVar[str] = "crate"
     example: ClassVar[str] = "crate=2.5,4.5@5-60"
@@ -188,12 +192,12 @@ class Crate(Fault):
 
     @classmethod
     def parse(cls, value: str, during: Span) -> Self:
-        """Read `2.5,4.5`."""
+        """Parse `2.5,4.5`."""
         x, _, y = value.partition(",")
         return cls(_number(x), _number(y), during=during)
 
     def check(self, home: Home) -> None:
-        """It must be in a room."""
+        """The point must be in a room."""
         if not any(room.holds(self.x, self.y) for room in home.rooms):
             raise ValueError(f"({self.value}) is in no room")
 
@@ -203,7 +207,7 @@ class Crate(Fault):
 
 @dataclass(frozen=True, slots=True)
 class Rated(Fault):
-    """Strikes with a probability, each time anew."""
+    """A fault that strikes with a probability, drawn at each occasion."""
 
     rate: float
 
@@ -214,13 +218,13 @@ class Rated(Fault):
 
     @classmethod
     def parse(cls, value: str, during: Span) -> Self:
-        """Read `0.3`."""
+        """Parse `0.3`."""
         return cls(_up_to_one(value, "a probability"), during=during)
 
 
 @dataclass(frozen=True, slots=True)
 class Slip(Rated):
-    """The fingers find no friction on what they close on."""
+    """The fingers have almost no friction, and lose the object that they close on."""
 
     word: ClassVar[str] = "slip"
     example: ClassVar[str] = "slip=0.3"
@@ -228,7 +232,7 @@ class Slip(Rated):
 
 @dataclass(frozen=True, slots=True)
 class Drop(Fault):
-    """The hand lets go, once, of what it carries at this time or picks up after it."""
+    """The hand drops, once, the object that it carries at this time or picks up later."""
 
     word: ClassVar[str] = "drop"
     example: ClassVar[str] = "drop@45"
@@ -244,28 +248,28 @@ class Stuck(Fault):
 
     @property
     def value(self) -> str:
-        """The joint, without the maker's prefix."""
+        """The joint, without the prefix `panda_`."""
         return self.joint
 
     @classmethod
     def parse(cls, value: str, during: Span) -> Self:
-        """Read `joint3` or `lift`."""
+        """Parse `joint3` or `lift`."""
         if value not in JOINTS:
             raise ValueError(f"there is no joint {value!r}; there is {_of(JOINTS)}")
         return cls(value, during=during)
 
     @property
     def index(self) -> int:
-        """Its place in `sim.body.hardware.ARM`."""
+        """Its index in `sim.body.hardware.ARM`."""
         return JOINTS.index(self.joint)
 
 
-# --- the senses ---
+# --- camera and detector ---
 
 
 @dataclass(frozen=True, slots=True)
 class Blind(Fault):
-    """The camera gives black pictures without depth."""
+    """The camera takes black pictures without depth."""
 
     word: ClassVar[str] = "blind"
     example: ClassVar[str] = "blind@20-40"
@@ -289,13 +293,13 @@ class Noise(Fault):
 
     @classmethod
     def parse(cls, value: str, during: Span) -> Self:
-        """Read `0.02`."""
+        """Parse `0.02`."""
         return cls(_up_to_one(value, "a standard deviation in metres"), during=during)
 
 
 @dataclass(frozen=True, slots=True)
 class Miss(Rated):
-    """The detector overlooks a thing in a picture."""
+    """The detector overlooks an object in a picture."""
 
     word: ClassVar[str] = "miss"
     example: ClassVar[str] = "miss=0.2"
@@ -303,7 +307,7 @@ class Miss(Rated):
 
 @dataclass(frozen=True, slots=True)
 class Confuse(Rated):
-    """The detector takes a thing in a picture for another one of the home."""
+    """The detector gives an object in a picture the name of another object of the home."""
 
     word: ClassVar[str] = "confuse"
     example: ClassVar[str] = "confuse=0.1"
@@ -313,14 +317,14 @@ FAULTS: dict[str, type[Fault]] = {
     kind.word: kind
     for kind in (Moved, Blocked, Crate, Slip, Drop, Stuck, Blind, Noise, Miss, Confuse)
 }
-"""Every kind, by its word."""
+"""All kinds of faults, by their words."""
 
 
 def parse_fault(text: str) -> Fault:
-    """Read one fault.
+    """Parse one fault.
 
     Raises:
-        InputError: if it is none, with an example of what would be right.
+        InputError: if the text is not valid, with an example of what would be right.
     """
     what, at, when = text.partition("@")
     word, _, value = what.partition("=")
@@ -334,10 +338,10 @@ def parse_fault(text: str) -> Fault:
 
 
 def parse_faults(texts: Iterable[str], home: Home) -> tuple[Fault, ...]:
-    """Read faults, and see whether the home has what they are about.
+    """Parse faults, and check them against the home.
 
     Raises:
-        InputError: names the first that is wrong.
+        InputError: for the first that is wrong.
     """
     faults = tuple(parse_fault(text) for text in texts)
     for fault in faults:
@@ -349,10 +353,10 @@ def parse_faults(texts: Iterable[str], home: Home) -> tuple[Fault, ...]:
 
 
 def refuse_physical(faults: Iterable[Fault]) -> None:
-    """Let only those pass that the instant world knows, too.
+    """Check that the instant world can apply all faults.
 
     Raises:
-        InputError: names the first that takes physics.
+        InputError: for the first that needs the physics world.
     """
     for fault in faults:
         if fault.physical:

@@ -1,4 +1,4 @@
-"""Moves things, shuts doors and puts crates down in the physics world, as faults order it."""
+"""Faults of the physics world: moves objects, shuts doors and puts down crates."""
 
 from collections.abc import Iterator, Mapping
 
@@ -23,13 +23,13 @@ DOOR_SPEED_M_S = 1.0
 CRATE_M = (0.5, 0.5, 0.6)
 CRATE_COLOR: Color = (0.80, 0.62, 0.30, 1.0)
 CLEAR_M = 1.0
-"""Doors are not shut and crates not put down where the robot is nearer than this."""
+"""Doors are not shut, and crates not put down, while the robot is nearer than this."""
 _CELLAR = Pose((0.0, 0.0, -3.0))
-"""Where crates wait that are not there yet."""
+"""Crates wait here, below the floor, until their time comes."""
 
 
 class WorldFaults:
-    """What happens in the world that no sensor or motor does."""
+    """The faults that happen in the world, not in a sensor or motor of the robot."""
 
     def __init__(
         self,
@@ -39,14 +39,14 @@ class WorldFaults:
         hardware: FaultyHardware,
         injector: FaultInjector,
     ) -> None:
-        """Hang the doors that will be shut, open, and keep the crates ready.
+        """Create the doors that will be shut, still open, and the crates, below the floor.
 
         Args:
             client: the world.
             home: its plan.
-            things: names of the movable things by body id.
-            hardware: the robot, which is not to be hit.
-            injector: what to do, and when.
+            things: names of the movable objects by body id.
+            hardware: the robot; doors and crates must not hit it.
+            injector: the faults and their times.
         """
         self._client = client
         self._home = home
@@ -68,7 +68,7 @@ class WorldFaults:
         return (Entity(name, name, (shape,)) for name, shape in self._shapes.items())
 
     def act(self) -> None:
-        """Do what is due; called once per control period."""
+        """Apply the faults that are due; called once per control period."""
         self._hardware.misbehave()
         for moved in self._injector.due(Moved):
             self._injector.strike(moved, self._move(moved))
@@ -77,7 +77,7 @@ class WorldFaults:
         for crate, body in self._crates.items():
             self._place_crate(crate, body)
 
-    # --- things ---
+    # --- objects ---
 
     def _move(self, fault: Moved) -> str:
         body = self._bodies[fault.thing]
@@ -135,7 +135,7 @@ class WorldFaults:
 
 
 class _Leaf:
-    """A door that slides into the wall beside it; `open` is how far (metres)."""
+    """A door that slides into the wall beside it; `open` is the width of its gap (metres)."""
 
     def __init__(self, door: Door, body: int) -> None:
         self.door = door

@@ -1,4 +1,4 @@
-"""Where things stand on furniture at the start: as the home file says, or side by side."""
+"""Arranges objects on furniture at the start: at given spots, or side by side."""
 
 import math
 from collections import defaultdict
@@ -13,44 +13,46 @@ from sim.home.furniture import Degrees, Surface
 from sim.objects.objects import ObjectModel
 
 GAP_M = 0.12
-"""Between the outlines of neighbours, for the fingers of a hand."""
+"""Least gap between the outlines of neighbours, for the fingers of a hand."""
 FRONT_M = 0.13
-"""From the front edge to the middle of a thing, for the reach of an arm."""
+"""Distance from the front edge to the centre of an object, for the reach of the arm."""
 MARGIN_M = 0.02
-"""From the outline of a thing to the edge of its surface."""
+"""Least distance from the outline of an object to the edge of its surface."""
 SIDE_M = 0.5
-"""How far the row reaches to the left and right of the middle, before which its user stands."""
+"""How far the row extends left and right of the centre, where the robot stands."""
 STEP_M = 0.01
+"""Distance between the positions that are tried."""
 HEADROOM_M = 0.05
+"""Least free height above an object under a board."""
 
 
 class Spot(BaseModel):
-    """Where an object is: on which furniture and, if it matters, where on it."""
+    """Where an object is: on which furniture and, optionally, where on it."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
     furniture: str
     surface: NonNegativeInt | None = None
-    """Counts the furniture's surfaces, the handiest first; the first that fits if not given."""
+    """Index in the furniture's `surfaces`; None: the first that the object fits on."""
     at: tuple[Coordinate, Coordinate] | None = None
-    """From the middle of the surface to the front and to the left (metres)."""
+    """x (to the front) and y (to the left) from the centre of the surface (metres)."""
     yaw: Annotated[Degrees, AfterValidator(math.radians)] = 0.0
-    """Turn of the object (degrees in the file, radians here)."""
+    """Yaw of the object in the furniture frame (degrees in the file, radians here)."""
 
     def moved(self, furniture: str) -> Self:
-        """The same on other furniture, wherever there is room."""
+        """A copy on other furniture, at no particular spot."""
         there = {"furniture": furniture, "surface": None, "at": None, "yaw": 0.0}
         return self.model_copy(update=there)
 
     def at_spot(self, spot: "Spot") -> Self:
-        """The same at another spot."""
+        """A copy at another spot."""
         there = {"furniture": spot.furniture, "surface": spot.surface}
         return self.model_copy(update={**there, "at": spot.at, "yaw": spot.yaw})
 
 
 @dataclass(frozen=True, slots=True)
 class Standing:
-    """An object's frame in the frame of its furniture (metres, radians)."""
+    """The pose of an object's frame in the frame of its furniture (metres, radians)."""
 
     surface: int
     x: float
@@ -60,17 +62,17 @@ class Standing:
 
 
 class NoRoomError(Exception):
-    """There is no spot for an object on its furniture."""
+    """There is no room for an object on its furniture; `name` is the object."""
 
     def __init__(self, name: str, reason: str) -> None:
-        """Say for which object and why."""
+        """The object has no room, for a reason, which is the message."""
         super().__init__(reason)
         self.name = name
 
 
 @dataclass(frozen=True, slots=True)
 class _Outline:
-    """The rectangle that something takes up, seen from above (metres)."""
+    """The bounding rectangle of an object or a surface, seen from above (metres)."""
 
     back: float
     front: float
@@ -101,12 +103,17 @@ def arrange(
     models: Mapping[str, ObjectModel],
     left: Collection[str] = (),
 ) -> dict[str, Standing]:
-    """Give every object its place.
+    """Find a pose for every object.
 
-    Objects with `at` stand there; those that were `left` there do, however little room there is.
-    The others follow in their order: each takes the free spot that is nearest to the middle of the
-    front of the first surface that has one, so that moving one object leaves those before it where
-    they are.
+    Objects with `at` stand there. The others follow in their order: each takes the free spot
+    nearest to the centre of the front of the first surface that has one. So moving one object does
+    not affect those before it.
+
+    Args:
+        spots: the wanted spots, by object.
+        surfaces: the surfaces of the furniture, by its name.
+        models: the models, by object.
+        left: objects that were left at their spot; they stay even if there is too little room.
 
     Raises:
         NoRoomError: if an object does not fit.
@@ -134,7 +141,7 @@ def arrange(
 def _candidates(
     spot: Spot, surfaces: tuple[Surface, ...], outline: _Outline, height: float, as_left: bool
 ) -> Iterator[Standing]:
-    """Where an object may stand if nothing else did, best first."""
+    """The poses of an object on otherwise empty furniture, the best first."""
     for index, surface in enumerate(surfaces):
         if spot.surface not in (None, index):
             continue
@@ -154,7 +161,7 @@ def _candidates(
 
 
 def _middle_out(outline: _Outline) -> Iterator[float]:
-    """Offsets to the left that keep the outline within SIDE_M, nearest to the middle first."""
+    """Offsets along y that keep the outline within SIDE_M, those nearest to the centre first."""
     for step in range(int(SIDE_M / STEP_M) + 1):
         for offset in (step * STEP_M, -step * STEP_M):
             if outline.right + offset >= -SIDE_M and outline.left + offset <= SIDE_M:

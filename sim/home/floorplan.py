@@ -1,4 +1,4 @@
-"""Rooms and doors, and the walls that follow from them."""
+"""Rooms and doors, and the walls around them."""
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
@@ -9,21 +9,21 @@ from pydantic import BaseModel, ConfigDict, Field
 
 Span = tuple[float, float]
 FARTHEST_M = 1000.0
-"""A point may be so far from the origin along x and y; the base reaches a bit farther."""
+"""Greatest absolute value of x and y; the robot's base can move a little farther."""
 Coordinate = Annotated[float, Field(strict=True, ge=-FARTHEST_M, le=FARTHEST_M)]
-"""Of a point in `map` as a file gives it (metres)."""
+"""x or y of a point in `map` in a home file (metres)."""
 Length = Annotated[float, Field(strict=True, gt=0.0, le=100.0)]
-"""Of something in a home as a file gives it (metres)."""
+"""A length in a home file (metres)."""
 
 
 class Room(BaseModel):
-    """A room with walls along the edges of its rectangle; neighbours share what is between them."""
+    """A room with walls along the edges of its rectangle; neighbours share the wall between."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
     name: str
     label: str = ""
-    """What the robot calls it; empty: what its name says."""
+    """The robot's word for it in speech; empty: derived from its name."""
     kind: str
     """Its class in the ontology."""
     rectangle: tuple[Coordinate, Coordinate, Coordinate, Coordinate]
@@ -47,7 +47,7 @@ class Door(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
     position: tuple[Coordinate, Coordinate]
-    """Its middle, on the line of a wall (metres, in `map`)."""
+    """Its centre, on the line of a wall (metres, in `map`)."""
     width: Length
 
 
@@ -60,9 +60,9 @@ class Wall:
 
 
 def walls(rooms: tuple[Room, ...], doors: tuple[Door, ...], thickness: float) -> tuple[Wall, ...]:
-    """The pieces of wall that are left when the doors are cut out.
+    """The pieces of wall between the doors.
 
-    Walls along y run through where they meet walls along x, so that corners are closed.
+    Pieces are extended by half a wall at the corners of rooms, so that corners are closed.
     """
     pieces = []
     for (axis, offset), spans in wall_lines(rooms).items():
@@ -78,7 +78,7 @@ def walls(rooms: tuple[Room, ...], doors: tuple[Door, ...], thickness: float) ->
 
 
 def wall_axis(door: Door, lines: "Lines") -> int | None:
-    """Which coordinate is fixed along the wall that has the whole door: 0 (x), 1 (y), or None."""
+    """The fixed coordinate of the wall that contains a door: 0 (x) or 1 (y); None if none does."""
     for axis in (0, 1):
         along, half = door.position[1 - axis], door.width / 2
         for start, end in _joined(lines.get((axis, door.position[axis]), ())):
@@ -88,7 +88,7 @@ def wall_axis(door: Door, lines: "Lines") -> int | None:
 
 
 def doors_between(rooms: tuple[Room, ...], doors: tuple[Door, ...]) -> dict[Door, tuple[str, str]]:
-    """The names of the two rooms on either side of each door; doors to the outside are left out."""
+    """The names of the two rooms at each door; doors to the outside are left out."""
     sides = {door: _rooms_beside(door, rooms) for door in doors}
     return {door: (found[0], found[1]) for door, found in sides.items() if len(found) == 2}
 
@@ -106,7 +106,7 @@ Lines = Mapping[tuple[int, float], Sequence[Span]]
 
 
 def wall_lines(rooms: tuple[Room, ...]) -> Lines:
-    """Spans of wall on each line; axis 0 has x fixed, axis 1 has y fixed."""
+    """Spans of wall by line, which is (axis, offset): axis 0 has x fixed, axis 1 has y fixed."""
     lines: dict[tuple[int, float], list[Span]] = defaultdict(list)
     for room in rooms:
         left, lower, right, upper = room.rectangle
@@ -139,7 +139,7 @@ def _without(spans: list[Span], gaps: list[Span]) -> list[Span]:
 
 
 def _grown(piece: Span, spans: Sequence[Span], thickness: float) -> Span:
-    """A piece made longer by half a wall at its ends that are corners of a room."""
+    """A piece of wall, extended by half a wall's thickness at ends that are corners of rooms."""
     corners = {end for span in spans for end in span}
     start, end = piece
     half = thickness / 2

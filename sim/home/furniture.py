@@ -1,7 +1,7 @@
-"""What pieces of furniture are made of, and where things can stand on them.
+"""The shapes of furniture, and the surfaces that objects can stand on.
 
-The furniture frame has its origin on the floor at the piece's middle; x points out of the side from
-which it is used, y to its left as seen from behind, z up.
+The furniture frame has its origin on the floor at the centre of the piece; x points out of its
+front, the side from which it is used; z points up.
 """
 
 import math
@@ -41,7 +41,7 @@ FORM_OF_KIND: dict[str, Form] = {
     "Sofa": "sofa",
     "Bed": "bed",
 }
-"""How a piece of each ontology class is built unless the home file says otherwise."""
+"""The default form of each ontology class; a home file can give another."""
 
 OPEN = math.inf
 PANEL_M = 0.03
@@ -65,10 +65,10 @@ COLOR_OF_KIND: dict[str, Color] = {
 
 @dataclass(frozen=True, slots=True)
 class Surface:
-    """A level area that things can stand on, in the furniture frame (metres).
+    """A level area that objects can stand on, in the furniture frame (metres).
 
     Attributes:
-        center: its middle.
+        center: its centre.
         length_x: from front to back.
         length_y: from side to side.
         clearance: free height above it; infinite if open.
@@ -82,7 +82,7 @@ class Surface:
 
 @dataclass(frozen=True, slots=True)
 class Build:
-    """A piece of furniture as built: its solid parts and its surfaces, the handiest first."""
+    """The solid parts of a piece of furniture, and its surfaces, the easiest to reach first."""
 
     shapes: tuple[Shape, ...]
     surfaces: tuple[Surface, ...]
@@ -95,17 +95,17 @@ def _yaw_in_radians(pose: PlanarPose) -> PlanarPose:
 
 Degrees = Annotated[float, Field(strict=True, ge=-3600.0, le=3600.0)]
 PoseInDegrees = Annotated[tuple[Coordinate, Coordinate, Degrees], AfterValidator(_yaw_in_radians)]
-"""A PlanarPose whose yaw a file gives in degrees."""
+"""A PlanarPose; its yaw is in degrees in the file, and in radians once it is read."""
 
 
 class Furniture(BaseModel):
-    """A piece of furniture that things may be on or in; `pose` x points out of its front."""
+    """A piece of furniture that objects can be on or in; `pose` is its frame in `map`."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
     name: str
     label: str = ""
-    """What the robot calls it; empty: what its name says."""
+    """The robot's word for it in speech; empty: derived from its name."""
     kind: str
     """Its class in the ontology."""
     room: str
@@ -115,7 +115,7 @@ class Furniture(BaseModel):
     boards: Annotated[tuple[Length, ...], Field(max_length=8)] = ()
     """Heights of its boards below the top, or of a sofa's seat (metres)."""
     form: Form | None = None
-    """How it is built, if not as its kind usually is."""
+    """Its form; None: that of its kind."""
 
     @property
     def _build(self) -> "Build":
@@ -127,24 +127,24 @@ class Furniture(BaseModel):
         return self._build.shapes
 
     def surfaces(self) -> tuple[Surface, ...]:
-        """Where things can stand, in the furniture frame, the handiest first."""
+        """Where objects can stand, in the furniture frame, the easiest to reach first."""
         return self._build.surfaces
 
     def to_map(self, point: Vector3) -> Vector3:
-        """A point of the furniture frame in `map` (metres)."""
+        """Transform a point from the furniture frame to `map` (metres)."""
         x, y, yaw = self.pose
         cos, sin = math.cos(yaw), math.sin(yaw)
         return x + cos * point[0] - sin * point[1], y + sin * point[0] + cos * point[1], point[2]
 
     def from_map(self, point: Vector3) -> Vector3:
-        """A point of `map` in the furniture frame (metres)."""
+        """Transform a point from `map` to the furniture frame (metres)."""
         x, y, yaw = self.pose
         cos, sin = math.cos(yaw), math.sin(yaw)
         east, north = point[0] - x, point[1] - y
         return cos * east + sin * north, cos * north - sin * east, point[2]
 
     def is_below(self, point: Vector3) -> bool:
-        """Whether a point of `map` (metres) is within the outline, at whatever height."""
+        """Whether a point of `map` (metres) is inside the outline on the floor, at any height."""
         ahead, left, _ = self.from_map(point)
         return abs(ahead) <= self.size[0] / 2 and abs(left) <= self.size[1] / 2
 
@@ -154,7 +154,7 @@ class Furniture(BaseModel):
         return Pose((x, y, 0.0), heading(yaw))
 
     def corners(self) -> tuple[tuple[float, float], ...]:
-        """Corners of its outline on the floor, around it, in `map` (metres)."""
+        """The four corners of its outline on the floor, in order around it, in `map` (metres)."""
         x, y = self.size[0] / 2, self.size[1] / 2
         points = ((x, y, 0.0), (-x, y, 0.0), (-x, -y, 0.0), (x, -y, 0.0))
         return tuple(self.to_map(point)[:2] for point in points)
@@ -165,8 +165,8 @@ def build(form: Form, size: Vector3, boards: tuple[float, ...], color: Color) ->
     """Build a piece of furniture.
 
     Args:
-        form: how it is put together.
-        size: depth (x), width (y) and height (z) over all, metres.
+        form: which kind of construction.
+        size: overall depth (x), width (y) and height (z), metres.
         boards: heights of the upper sides of the boards below the top (table, case) or of the open
             compartments (fridge), metres above the floor.
         color: of its main parts.
@@ -175,12 +175,12 @@ def build(form: Form, size: Vector3, boards: tuple[float, ...], color: Color) ->
 
 
 def box(size: Vector3, center: Vector3, color: Color) -> Shape:
-    """A box with its middle at `center` (metres)."""
+    """A box with its centre at `center` (metres)."""
     return Shape("box", size, color, Pose(center))
 
 
 def _slab(size: Vector3, top: float, color: Color) -> Shape:
-    """A board as deep and wide as `size` says whose upper side is at height `top`."""
+    """A board with the depth and width of `size`, and its upper side at height `top`."""
     return box((size[0], size[1], PANEL_M), (0.0, 0.0, top - PANEL_M / 2), color)
 
 
@@ -192,7 +192,7 @@ def _shaded(color: Color, factor: float) -> Color:
 def _board_surfaces(
     boards: tuple[float, ...], ceiling: float, length_x: float, length_y: float
 ) -> tuple[Surface, ...]:
-    """Surfaces of boards listed from the highest, under a ceiling (underside, metres)."""
+    """The surfaces of boards, from the highest to the lowest; `ceiling` is above all (metres)."""
     surfaces = []
     for height in boards:
         surfaces.append(Surface((0.0, 0.0, height), length_x, length_y, ceiling - height))
@@ -239,7 +239,7 @@ def _case(size: Vector3, boards: tuple[float, ...], color: Color) -> Build:
 
 
 def _fridge(size: Vector3, boards: tuple[float, ...], color: Color) -> Build:
-    """Closed below the lowest board, open in front above it; its top is too high to be used."""
+    """A fridge, closed below the lowest board, and open in front above; its top is not used."""
     depth, width, height = size
     carcass = _case(size, boards, color)
     freezer = min(boards, default=height) - PANEL_M
@@ -270,7 +270,7 @@ def _sofa(size: Vector3, boards: tuple[float, ...], color: Color) -> Build:
 
 
 def _bed(size: Vector3, boards: tuple[float, ...], color: Color) -> Build:
-    """Lies along y with its head to the right; used from a long side."""
+    """A bed along y, with its head to the right; it is used from a long side."""
     depth, width, height = size
     frame = height * 0.6
     head, pillow = 0.05, 0.45

@@ -1,7 +1,7 @@
-"""Habits of those who live in a home: who takes what where, on which days and at what hours.
+"""Habits of the people in a home: which objects they take where, on which days, at what hours.
 
-What happens on a day follows from the file, the day and a seed alone, so that a home that is left
-alone for a week has lived through the same week as one that was looked at every hour.
+What happens on a day depends only on the file, the day and a seed. So a home that nobody looks at
+for a week changes in the same way as one that is looked at every hour.
 """
 
 import random
@@ -39,21 +39,21 @@ ANYWHERE = "anywhere"
 DAYS = ("mon", "tue", "wed", "thu", "fri", "sat", "sun")
 DAY_S = 86400.0
 MOST_DAYS = 60
-"""A home that was left alone for longer has lived through the last of these days only."""
+"""If more days have passed, only these last ones are simulated."""
 _THURSDAY = 3
-"""1970-01-01 was one."""
+"""The weekday of 1970-01-01."""
 _SHOWN = 80
 _EXAMPLE = "see sim/habits/household.toml"
 
 
-def _alone(value: Any) -> Any:
-    """One of what may be several needs no list."""
+def _as_tuple(value: Any) -> Any:
+    """A single text counts as a list of one."""
     return (value,) if isinstance(value, str) else value
 
 
 def _weights(value: Any) -> Any:
-    """Places without weights are as likely as one another."""
-    named = _alone(value)
+    """Places without weights are equally likely."""
+    named = _as_tuple(value)
     return dict.fromkeys(named, 1.0) if isinstance(named, list | tuple) else named
 
 
@@ -63,34 +63,34 @@ def _in_order(hours: tuple[float, float]) -> tuple[float, float]:
     return hours
 
 
-Names = Annotated[tuple[str, ...], BeforeValidator(_alone), Field(max_length=200)]
+Names = Annotated[tuple[str, ...], BeforeValidator(_as_tuple), Field(max_length=200)]
 Hour = Annotated[float, Field(ge=0, le=24)]
 Weight = Annotated[float, Field(gt=0, le=1e6)]
 
 
 class Habit(BaseModel):
-    """What somebody does with things, at most once a day with each of them."""
+    """An action of a person with objects, at most once a day with each object."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
     things: Names = ()
-    """Objects by name; all that are there if none is given."""
+    """Names of objects; empty: all objects of the home."""
     to: Annotated[dict[str, Weight], BeforeValidator(_weights), Field(min_length=1, max_length=200)]
-    """Pieces of furniture, kinds of it, or `anywhere`, with how often each is chosen."""
+    """Pieces or kinds of furniture, or `anywhere`, with weights for the random choice."""
     only_from: Names = ()
-    """Pieces or kinds on which the thing has to be; wherever it is if none is given."""
+    """Pieces or kinds of furniture that the object must be on; empty: any."""
     hours: Annotated[tuple[Hour, Hour], AfterValidator(_in_order)] = (0.0, 24.0)
-    """Of the day (UTC), between which it happens."""
+    """It happens between these hours of the day (UTC)."""
     days: Annotated[
         tuple[Literal["mon", "tue", "wed", "thu", "fri", "sat", "sun"], ...],
-        BeforeValidator(_alone),
+        BeforeValidator(_as_tuple),
     ] = DAYS  # type: ignore[assignment]
     chance: Annotated[float, Field(ge=0, le=1)] = 1.0
-    """How likely it happens on such a day, for each thing by itself."""
+    """The probability that it happens on such a day, for each object on its own."""
 
 
 class Habits(BaseModel):
-    """All habits of a home, as a file has them."""
+    """All habits in a file."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -99,7 +99,7 @@ class Habits(BaseModel):
 
 @dataclass(frozen=True, slots=True)
 class Move:
-    """Somebody takes a thing to other furniture, if it is on one of `only_from` (any if empty)."""
+    """A person takes an object to other furniture, if it is on one of `only_from` (empty: any)."""
 
     time_s: float
     thing: str
@@ -107,7 +107,7 @@ class Move:
     only_from: tuple[str, ...]
 
     def fits(self, here: str) -> bool:
-        """Whether it is done with a thing that is on this furniture; empty: on none."""
+        """Whether the move applies to an object on the furniture `here` (empty: on none)."""
         wanted = here in self.only_from if self.only_from else bool(here)
         return wanted and here != self.to
 
@@ -118,10 +118,11 @@ def packaged_habits() -> tuple[str, ...]:
 
 
 def load_habits(name_or_file: str, home: Home) -> Habits:
-    """The habits of those who live in this home: packaged ones by name, or a TOML file.
+    """Read habits for a home, given the name of packaged ones or the path of a TOML file.
 
     Raises:
-        InputError: if there are none of this name, or something in them is wrong or not here.
+        InputError: if there are none of this name, if the file has a fault, or if it names objects
+            or furniture that the home does not have.
     """
     where, tables = _read(name_or_file)
     try:
@@ -130,7 +131,7 @@ def load_habits(name_or_file: str, home: Home) -> Habits:
         raise _input_error(where, error) from None
     refuse_misread_bools(tables, habits, where)
     for number, habit in enumerate(habits.habits):
-        _fit_to(home, habit, f"{where}: habits.{number}")
+        _check_fits(home, habit, f"{where}: habits.{number}")
     return habits
 
 
@@ -158,11 +159,11 @@ def _input_error(where: str, error: ValidationError) -> InputError:
     return InputError(where, f"{key} is {shown(fault['input'])}", right)
 
 
-def _fit_to(home: Home, habit: Habit, where: str) -> None:
-    """Things and places have to be of this home.
+def _check_fits(home: Home, habit: Habit, where: str) -> None:
+    """Check that the home has the objects and furniture of a habit.
 
     Raises:
-        InputError: names what is not.
+        InputError: names the first that is missing.
     """
     for name in habit.things:
         if name not in home.objects:
@@ -178,7 +179,7 @@ def _fit_to(home: Home, habit: Habit, where: str) -> None:
 
 
 def pieces_of(home: Home, name: str) -> tuple[str, ...]:
-    """The furniture that a name of a habit stands for: a piece, those of a kind, or all."""
+    """The pieces of furniture that a name in a habit stands for: one, all of a kind, or all."""
     if name == ANYWHERE:
         return tuple(piece.name for piece in home.furniture)
     pieces = (*home.furniture, home.delivery)
@@ -187,10 +188,10 @@ def pieces_of(home: Home, name: str) -> tuple[str, ...]:
 
 
 def moves(habits: Habits, home: Home, since_s: float, until_s: float, seed: int) -> Iterator[Move]:
-    """What is done after a time (UTC, s) until another one, in its order.
+    """The moves after `since_s` until `until_s` (UTC, s), in order of time.
 
-    Of a kind of furniture a thing is always taken to the same piece, which the seed chooses. A
-    habit with kinds of which this home has none is left out.
+    If a habit names a kind of furniture, an object is always taken to the same piece of that kind,
+    which the seed chooses. Habits are skipped if the home has no furniture for them.
     """
     first = max(int(since_s // DAY_S), int(until_s // DAY_S) - MOST_DAYS)
     for day in range(first, int(until_s // DAY_S) + 1):
@@ -214,7 +215,7 @@ def _of_day(habits: Habits, home: Home, day: int, seed: int) -> Iterator[Move]:
 
 
 def _chosen(home: Home, habit: Habit, at: float, whose: str, chance: random.Random) -> str:
-    """The piece of furniture that is chosen, of what this home has."""
+    """Choose a piece of furniture of this home by the habit's weights; `at` is in [0, 1)."""
     here = {name: weight for name, weight in habit.to.items() if pieces_of(home, name)}
     names, left = list(here), at * sum(here.values())
     for name in names:

@@ -1,6 +1,6 @@
-"""The home: rooms, doors, furniture, and where things, the person and the robot are in it.
+"""The home: rooms, doors and furniture, and where objects, the person and the robot are.
 
-A home is a TOML file; `homes/four_rooms.toml` shows every key. Its frame is `map`.
+A home is a TOML file; `homes/four_rooms.toml` shows every key. All poses are in `map`.
 """
 
 import math
@@ -21,20 +21,20 @@ from sim.home.own import Entry, OwnObject
 from sim.objects.objects import ObjectModel, load_objects
 
 STAND_OFF_M = 0.62
-"""From the front edge of a piece of furniture to the middle of the robot that uses it."""
+"""Distance from the front edge of furniture to the centre of the robot that uses it."""
 TALKING_DISTANCE_M = 0.9
-"""From the middle of the person to the middle of the robot that talks to them."""
+"""Distance from the centre of the person to the centre of the robot that talks to them."""
 FLOOR_VIEWS = 5
-"""How many looks it takes to see the floor all around the robot."""
+"""Number of head poses that together see the floor all around the robot."""
 FACE_HEIGHT_M = 1.55
 VIEW_DEPTH_M = 0.17
-"""Behind the front edge of a surface, where the camera looks."""
+"""The camera looks at a point this far behind the front edge of a surface,"""
 VIEW_HEIGHT_M = 0.06
-"""Above a surface, where the camera looks."""
+"""and this high above it."""
 
 
 class Home(BaseModel):
-    """A home as its file describes it; `home_file` reads one."""
+    """A home as its file describes it; `home_file` reads the file."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
@@ -43,31 +43,31 @@ class Home(BaseModel):
     wall_thickness: Annotated[Length, Field(le=1.0)] = 0.1
     robot_start: PoseInDegrees
     person: PoseInDegrees
-    """Where the person is, and where they look."""
+    """Where the person stands, and the direction in which they look."""
     rooms: Annotated[tuple[Room, ...], Field(min_length=1, max_length=200)]
     doors: Annotated[tuple[Door, ...], Field(max_length=600)] = ()
     furniture: Annotated[tuple[Furniture, ...], Field(max_length=5000)]
     delivery: Furniture
-    """The table where brought things go; it is not searched."""
+    """The table for objects that are brought; it is not searched."""
     objects: Annotated[dict[str, Entry], Field(max_length=200)] = Field(default_factory=dict)
-    """Where things are; those of one's own are declared there, too."""
+    """Spots of the objects, by name; the user's own objects are also declared here."""
     _folder: Path | None = PrivateAttr(None)
-    """Where its meshes are; None: nowhere, and things look like their forms."""
+    """The folder of its meshes; None: no meshes, and objects look like their forms."""
     _file: str = PrivateAttr("")
     _left: frozenset[str] = PrivateAttr(frozenset())
-    """Things that were left just where they are: so there is room for them."""
+    """Objects that were left exactly where they are: their spots are not checked for room."""
 
     @classmethod
     def from_file(cls, data: Any, file: str, folder: Path | None) -> Self:
-        """The home that a file describes.
+        """Make a home from the parsed content of its file.
 
         Args:
-            data: what is in it.
-            file: what it is called in messages.
-            folder: where its meshes are; None: nowhere, and things look like their forms.
+            data: the content.
+            file: the name of the file in messages.
+            folder: the folder of its meshes; None: no meshes, objects look like their forms.
 
         Raises:
-            ValidationError: if it has not the right form.
+            ValidationError: if keys or values are invalid.
         """
         home = cls.model_validate(data)
         home._folder, home._file = folder, file
@@ -75,7 +75,7 @@ class Home(BaseModel):
 
     @property
     def file(self) -> str:
-        """What its file is called in messages; empty if it was not read from one."""
+        """The name of its file in messages; empty if it was not read from a file."""
         return self._file
 
     @property
@@ -84,33 +84,33 @@ class Home(BaseModel):
         return {name: one for name, one in self.objects.items() if isinstance(one, OwnObject)}
 
     def things(self) -> tuple[Thing, ...]:
-        """The objects that the file declares, for who knows only those of the ontology."""
+        """The objects that the file declares, in the form that the ontology needs."""
         return tuple(Thing(name, one.kind, one.color_name) for name, one in self.own.items())
 
     def models(self) -> dict[str, ObjectModel]:
-        """All things that there may be: those of the package, and those that the file declares."""
+        """The models of all known objects: those of the package, and those of the file."""
         return {**load_objects(), **{name: one.model(name) for name, one in self.own.items()}}
 
     def drawn_models(self) -> dict[str, ObjectModel]:
-        """The same, those with meshes looking like them.
+        """The same models with meshes for drawing, if they have any.
 
         Raises:
-            InputError: if a mesh is not there any more.
+            InputError: if a mesh cannot be read any more.
         """
         return {**load_objects(), **{name: self.drawn_model(name) for name in self.own}}
 
     def drawn_model(self, name: str) -> ObjectModel:
-        """One of those that the file declares, looking like its mesh if it has one.
+        """The model of an object that the file declares, with its mesh if it has one.
 
         Raises:
-            InputError: if the mesh is elsewhere, or cannot be used.
+            InputError: if the mesh is outside the folder, or cannot be used.
         """
         one = self.own[name]
         return one.drawn_model(name, self._folder) if self._folder else one.model(name)
 
     @property
     def placement(self) -> dict[str, str]:
-        """Name of the furniture that each object is on, in the file's order."""
+        """The name of the furniture that each object is on, in the file's order."""
         return {name: spot.furniture for name, spot in self.objects.items()}
 
     def places(self) -> tuple[Place, ...]:
@@ -122,16 +122,16 @@ class Home(BaseModel):
         )
 
     def extent(self) -> tuple[float, float, float, float]:
-        """Left, lower, right and upper edge of all rooms, in `map` (metres)."""
+        """Left, lower, right and upper edge of all rooms together, in `map` (metres)."""
         left, lower, right, upper = zip(*(room.rectangle for room in self.rooms), strict=True)
         return min(left), min(lower), max(right), max(upper)
 
     def walls(self) -> tuple[Wall, ...]:
-        """The walls without the doors' gaps, in `map`."""
+        """The walls, with gaps for doors, in `map`."""
         return walls(self.rooms, self.doors, self.wall_thickness)
 
     def furniture_named(self, name: str) -> Furniture:
-        """A piece of furniture, or the delivery table.
+        """The piece of furniture, or the delivery table, of a name.
 
         Raises:
             InputError: if there is none of this name.
@@ -144,9 +144,9 @@ class Home(BaseModel):
         raise InputError(f"home {self.name}", f"there is no furniture {name!r}", known)
 
     def stand(self, place: str) -> PlanarPose:
-        """Where the robot stands to use a piece of furniture, or to talk to the `person`.
+        """The robot's pose for using a piece of furniture, or for talking to the `person`.
 
-        It faces the front of the furniture, STAND_OFF_M away from the edge.
+        It faces the front of the furniture, STAND_OFF_M away from its edge.
 
         Raises:
             InputError: if there is no such place.
@@ -160,7 +160,7 @@ class Home(BaseModel):
         return x + ahead * math.cos(yaw), y + ahead * math.sin(yaw), facing
 
     def object_pose(self, name: str) -> Pose:
-        """Where an object's frame is in `map` at the start.
+        """The start pose of an object in `map`.
 
         Raises:
             InputError: if the object is not in this home.
@@ -171,7 +171,7 @@ class Home(BaseModel):
         return self._pose(name, self.arrangement()[name])
 
     def object_poses(self) -> dict[str, Pose]:
-        """Where each object's frame is in `map` at the start, in the file's order."""
+        """The start poses of all objects in `map`, in the file's order."""
         standing = self.arrangement()
         return {name: self._pose(name, standing[name]) for name in self.objects}
 
@@ -182,9 +182,9 @@ class Home(BaseModel):
         return Pose(position, heading(yaw))
 
     def view_targets(self, place: str) -> tuple[Vector3, ...]:
-        """Points to look at, from where the robot stands, to see all that stands on a place.
+        """Points in `map` that the robot looks at to see all of a place, from its `stand`.
 
-        One for each of its surfaces, the handiest first; for the `person`, their face.
+        One for each surface of the furniture, in the order of `surfaces`; the face of the `person`.
 
         Raises:
             InputError: if there is no such place.
@@ -199,12 +199,12 @@ class Home(BaseModel):
         )
 
     def arrangement(self) -> dict[str, Standing]:
-        """Where each object's frame is in the frame of its furniture at the start."""
+        """The start pose of each object in the frame of its furniture."""
         surfaces = {f.name: f.surfaces() for f in (*self.furniture, self.delivery)}
         return arrange(self.objects, surfaces, self.models(), self._left)
 
     def as_left(self, spots: Mapping[str, Spot]) -> Self:
-        """This home with things where they were left; those not named stay where they are."""
+        """A copy of this home with objects where they were left; all others stay as they are."""
         moved = {name: self.objects.get(name, spot).at_spot(spot) for name, spot in spots.items()}
         home = self.model_copy(update={"objects": {**self.objects, **moved}})
         home._left = self._left | spots.keys()

@@ -1,4 +1,4 @@
-"""Reads home files, and tells all that is wrong in one."""
+"""Reads home files, and lists all faults in one."""
 
 from functools import cache, lru_cache
 from importlib.resources import files
@@ -19,16 +19,16 @@ from sim.home.own import is_declaration
 from sim.home.validation import home_flaws, mesh_flaws
 
 MOST_TOLD = 100
-"""So many things that are wrong are told of one file."""
+"""The most faults that are reported for one file."""
 _SHOWN = 80
-"""So many characters of a value that is wrong are told."""
+"""The most characters of a wrong value in a message."""
 
 
 def load_home(name_or_path: str) -> Home:
-    """Read a home: the name of a packaged one, or a TOML file.
+    """Read a home, given the name of a packaged one or the path of a TOML file.
 
     Raises:
-        InputError: if there is no such home or something in it is wrong, naming file and key.
+        InputError: if there is no such home, or it has a fault; the message names file and key.
     """
     if name_or_path in packaged_homes():
         return _packaged(name_or_path)
@@ -37,13 +37,13 @@ def load_home(name_or_path: str) -> Home:
 
 @cache
 def _packaged(name: str) -> Home:
-    """What comes with the project stays as it is."""
+    """Read a packaged home; its file does not change while we run."""
     return _sound(*_read(name))
 
 
 @lru_cache(maxsize=8)
 def _sound(content: bytes, where: str) -> Home:
-    """The home of a file; one that has not changed is the same home."""
+    """The home of a file's content, cached; raises its first fault."""
     home, faults = _inspect(content, where, Path(where).parent)
     if home is None or faults:
         raise faults[0]
@@ -51,20 +51,20 @@ def _sound(content: bytes, where: str) -> Home:
 
 
 def inspect_home(name_or_path: str) -> tuple[Home | None, tuple[InputError, ...]]:
-    """Read a home and all that is wrong in its file; no home if it does not have the right form.
+    """Read a home, and list all faults in its file; no home if keys or values are invalid.
 
     Raises:
-        InputError: if there is no such home or it is not TOML.
+        InputError: if there is no such home, or the file is not TOML.
     """
     content, where = _read(name_or_path)
     return _inspect(content, where, Path(where).parent)
 
 
 def recorded_home(content: bytes) -> Home:
-    """The home of a recording, whose meshes may be elsewhere.
+    """The home of a recording; its meshes are not read, as they may be gone.
 
     Raises:
-        InputError: if something in it is wrong.
+        InputError: if the file has a fault.
     """
     home, faults = _inspect(content, "home.toml", None)
     if home is None or faults:
@@ -88,7 +88,7 @@ def _inspect(
 
 
 def home_text(name_or_path: str) -> str:
-    """The file of a home, as `load_home` reads it.
+    """The text of a home's file, as `load_home` reads it.
 
     Raises:
         InputError: if there is no such home.
@@ -102,7 +102,7 @@ def packaged_homes() -> tuple[str, ...]:
 
 
 def _read(name_or_path: str) -> tuple[bytes, str]:
-    """The file of a home, and what to call it in messages."""
+    """The content of a home's file, and its name for messages."""
     known = f"packaged are {', '.join(packaged_homes())}"
     if name_or_path.endswith(".toml"):
         return read_bytes(Path(name_or_path), MOST_BYTES, right=known), name_or_path
@@ -114,7 +114,7 @@ def _read(name_or_path: str) -> tuple[bytes, str]:
 
 
 def _input_error(where: str, data: Any, fault: ErrorDetails) -> InputError:
-    """One of pydantic's complaints, with the key as the file has it."""
+    """The InputError for an error of pydantic, with the key as in the file."""
     key = _key(data, fault["loc"])
     example = "see sim/homes/four_rooms.toml"
     match fault["loc"]:
@@ -128,7 +128,7 @@ def _input_error(where: str, data: Any, fault: ErrorDetails) -> InputError:
 
 
 def _key(data: Any, path: tuple[str | int, ...]) -> str:
-    """A path into the file as a person would put it: `furniture.desk.size.0`."""
+    """A path into the file for a message, with names for numbers: `furniture.desk.size.0`."""
     words = []
     for part in path:
         try:

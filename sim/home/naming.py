@@ -1,4 +1,4 @@
-"""What rooms and furniture may be called: by these names they are spoken of, logged and found."""
+"""Rules for the names of rooms, furniture and objects, which are used in speech and in logs."""
 
 import re
 import unicodedata
@@ -11,26 +11,26 @@ from executive.language.phrases import place_words, spoken
 from executive.types.home import DELIVERY, FLOOR, HAND, PERSON
 
 LONGEST = 64
-"""Characters of a name."""
+"""The most characters of a name."""
 TAKEN = frozenset(
     {PERSON, DELIVERY, FLOOR, HAND, "gripper", "robot", "map", "base_link", "world", "home"}
     | {"camera", "everywhere", "nowhere", "nothing", "none", "here", "there", "yes", "no", "stop"}
     | {"quit", "exit", "unknown", "me", "him", "her", "it", "them", "us", "you", "one", "other"}
     | {"another", "both", "all", "anything", "anywhere", "something", "somewhere", "everything"}
 )
-"""What already means something, in commands, in answers or as a frame."""
+"""Names that already have a meaning in commands, in answers or as a frame."""
 _BETWEEN = frozenset("_-' ")
 _UNSEEN = re.compile(
     "[\u034f\u115f\u1160\u17b4\u17b5\u180b-\u180f\u3164\ufe00-\ufe0f\uffa0\U000e0100-\U000e01ef]"
 )
-"""What counts as letters and marks, and shows nothing (Unicode: Default_Ignorable_Code_Point)."""
+"""Invisible characters that count as letters or marks (Unicode: Default_Ignorable_Code_Point)."""
 _LIKE_LATIN = frozenset(("LATIN", "GREEK", "CYRILLIC", "ARMENIAN", "CHEROKEE"))
-"""Alphabets that have letters which look like those of another one."""
+"""Alphabets with letters that look like letters of another one."""
 RULE = f"use up to {LONGEST} letters, digits, and single _ - ' or blanks between them"
 
 
 def name_fault(name: str) -> str | None:
-    """Why something cannot be called this; None if it can."""
+    """Why a text is not allowed as a name; None if it is."""
     if not name.strip():
         return "is empty"
     if len(name) > LONGEST:
@@ -51,24 +51,24 @@ def name_fault(name: str) -> str | None:
 
 
 def _is_of_two_alphabets(word: str) -> bool:
-    """Whether it may look like a word that it is not: with a Cyrillic letter in "desk"."""
+    """Whether a word mixes look-alike alphabets, as with a Cyrillic letter in "desk"."""
     return _of_one_alphabet(word) != word
 
 
 def _of_one_alphabet(word: str) -> str:
-    """The word without letters of a second one that look like those of its first."""
+    """The word without letters of other look-alike alphabets than that of its first such letter."""
     alphabets = [unicodedata.name(letter, "").partition(" ")[0] for letter in word]
     others = _LIKE_LATIN - {next((one for one in alphabets if one in _LIKE_LATIN), "")}
     return "".join(letter for letter, of in zip(word, alphabets, strict=True) if of not in others)
 
 
 def folded(name: str) -> str:
-    """The same for names that nobody would keep apart: `The Side Tables` is side_table."""
+    """A key that is equal for names that sound alike: `The Side Tables` and `side_table`."""
     return "".join(place_words(spoken(name)))
 
 
 def taken_fault(name: str) -> Fault | None:
-    """Why the name is no name for a place, as it means something else; None if it is one."""
+    """Why a place cannot have this name because it means something else; None if it can."""
     if folded(name) in _TAKEN:
         return "this name has a meaning of its own", "give another name"
     if DELIVERY in re.findall(r"[a-z]+", spoken(name)):
@@ -77,10 +77,12 @@ def taken_fault(name: str) -> Fault | None:
 
 
 def alike(names: Sequence[str], rooms: Sequence[str] = ()) -> Iterator[tuple[str, ...]]:
-    """Names that are the same or would not be kept apart, each such set once.
+    """Sets of names that are equal or too similar to be told apart.
 
-    In a room (`rooms` has what the room of each is called), the name may be said with the room
-    first: `cabinet_kitchen` is the "kitchen cabinet".
+    Args:
+        names: the names.
+        rooms: the room of each, if it is in one. A name may be said with the room first:
+            `cabinet_kitchen` is the "kitchen cabinet".
     """
     groups = defaultdict(list)
     for name, room in zip_longest(names, rooms, fillvalue=""):
@@ -91,7 +93,7 @@ def alike(names: Sequence[str], rooms: Sequence[str] = ()) -> Iterator[tuple[str
 
 
 def usable(text: str) -> str:
-    """The text with what no name may have left out; `home` if nothing remains."""
+    """The text without anything that names must not have; `home` if nothing is left."""
     kept = "".join(c if _is_of_words(c) or c in "_-" else "_" for c in text)
     kept = re.sub("[^_-]+", lambda word: _of_one_alphabet(word[0]), kept)
     begun = dropwhile(lambda c: c in _BETWEEN or unicodedata.category(c)[0] == "M", kept)
@@ -99,7 +101,7 @@ def usable(text: str) -> str:
 
 
 def _is_of_words(character: str) -> bool:
-    """Whether it is a letter, a digit, or a mark on one, of any script, that can be seen."""
+    """Whether it is a visible letter, digit or mark of any script."""
     return unicodedata.category(character)[0] in "LMN" and not _UNSEEN.match(character)
 
 

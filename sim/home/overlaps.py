@@ -1,4 +1,4 @@
-"""Which of many rectangles on the floor overlap: by their edges first, then by their sides."""
+"""Finds overlapping rectangles: first by bounding boxes, then by separating axes."""
 
 from collections.abc import Iterator, Sequence
 
@@ -11,10 +11,10 @@ Corners = Sequence[tuple[float, float]]
 
 
 def overlapping(outlines: Sequence[Corners]) -> Iterator[tuple[int, int]]:
-    """Pairs of rectangles that have more than an edge in common, the earlier one first.
+    """Pairs of indices of rectangles that overlap, the smaller index first; edges may touch.
 
     Args:
-        outlines: of each its four corners, around it (metres).
+        outlines: the four corners of each rectangle, in order around it (metres).
     """
     corners = np.asarray(outlines, float).reshape(-1, 4, 2)
     low, high = corners.min(axis=1), corners.max(axis=1)
@@ -30,7 +30,7 @@ def overlapping(outlines: Sequence[Corners]) -> Iterator[tuple[int, int]]:
 
 
 def _beyond(rectangles: Floats, others: Floats) -> NDArray[np.bool_]:
-    """Whether one of the rectangle's sides has all of the other rectangle before it."""
+    """Whether a side of the one rectangle separates it from the other; broadcasts."""
     start = rectangles[..., 2, :]
     apart: NDArray[np.bool_] = np.zeros((), bool)
     for end in (rectangles[..., 1, :], rectangles[..., 3, :]):

@@ -1,4 +1,4 @@
-"""An object of one's own: what the package does not have, and a home file says itself."""
+"""The user's own objects: a home file can declare objects that the package does not have."""
 
 from functools import cache
 from pathlib import Path
@@ -15,27 +15,27 @@ from sim.home.arrangement import Spot
 from sim.objects.objects import GREY, WHITE, HexColor, ObjectModel, object_model, rgba
 
 Extent = Annotated[float, Field(strict=True, ge=0.005, le=0.5)]
-"""A length of a thing that may stand on furniture (metres)."""
+"""A length of an object that can stand on furniture (metres)."""
 _SUFFIX = ".obj"
 _FORMS = ("box", "cylinder", "sphere")
 
 
 class OwnObject(Spot):
-    """What it is, beside where it is. `mesh` is only looked at; what collides is the form."""
+    """A declared object and its spot. `mesh` is only for drawing; the form is for collisions."""
 
     kind: str
     """Its class in the ontology."""
     box: tuple[Extent, Extent, Extent] | None = None
     """Depth, width and height (metres)."""
     cylinder: tuple[Extent, Extent] | None = None
-    """Diameter and height (metres); it stands."""
+    """Diameter and height (metres); the axis is vertical."""
     sphere: Extent | None = None
     """Diameter (metres)."""
     mass: Annotated[float, Field(strict=True, ge=0.001, le=100.0)]
     """Kilograms."""
     color: HexColor | None = None
     mesh: Annotated[str, Field(max_length=200)] | None = None
-    """OBJ file in the folder of the home file, or below it."""
+    """Path of an OBJ file, relative to the folder of the home file, and inside it."""
 
     @model_validator(mode="after")
     def _of_one_form(self) -> Self:
@@ -45,7 +45,7 @@ class OwnObject(Spot):
 
     @property
     def size(self) -> Vector3:
-        """Lengths along x, y and z as it stands (metres)."""
+        """Lengths along x, y and z of the standing object (metres)."""
         if self.box:
             return self.box
         if self.cylinder:
@@ -60,23 +60,23 @@ class OwnObject(Spot):
 
     @property
     def color_name(self) -> str:
-        """What its colour is called; empty if the file gives none."""
+        """The name of its colour; empty if the file gives none."""
         return "" if self.paint is None else color_name(*self.paint[:3])
 
     def model(self, name: str) -> ObjectModel:
-        """The thing that it is, of this name, looking like its form."""
+        """Its model, named `name`, without a mesh: it looks like its form."""
         return _model(name, self._form, self.size, self.mass, self.paint or GREY)
 
     def drawn_model(self, name: str, folder: Path) -> ObjectModel:
-        """The same, looking like its mesh, if it has one in this folder.
+        """Its model with the mesh, if it has one.
 
         Raises:
-            InputError: if the mesh is elsewhere, or cannot be used.
+            InputError: if the mesh is outside the folder, or cannot be used.
         """
         plain = self.model(name)
         if self.mesh is None:
             return plain
-        from sim.objects.meshes import aligned  # takes long to import, and few have a mesh
+        from sim.objects.meshes import aligned  # slow to import, and few objects have a mesh
 
         look = aligned(plain, mesh_in(folder, self.mesh), self.paint or WHITE)
         return object_model(name, plain.shapes, mass_kg=plain.mass_kg, look=look, shown=(look,))
@@ -87,18 +87,18 @@ class OwnObject(Spot):
 
 
 KEYS = frozenset(OwnObject.model_fields) - frozenset(Spot.model_fields)
-"""One of these makes an entry of `objects` a declaration."""
+"""An entry of `objects` with any of these keys is a declaration."""
 
 
 def as_entry(value: Any) -> Any:
-    """An entry of `objects` as it is read: furniture, a spot, or an object of one's own."""
+    """Convert an entry of `objects` for parsing: furniture, a spot, or a declared object."""
     if isinstance(value, str):
         return {"furniture": value}
     return OwnObject.model_validate(value) if is_declaration(value) else value
 
 
 def is_declaration(entry: Any) -> bool:
-    """Whether an entry of `objects` says what a thing is, and not only where."""
+    """Whether an entry of `objects` declares an object, instead of only its spot."""
     return isinstance(entry, dict) and not KEYS.isdisjoint(entry)
 
 
@@ -106,10 +106,10 @@ Entry = Annotated[Spot, BeforeValidator(as_entry)]
 
 
 def mesh_in(folder: Path, mesh: str) -> Path:
-    """The file of a mesh, which has to be in the folder or below it.
+    """The path of a mesh, which must be in the folder or below it.
 
     Raises:
-        InputError: if it is elsewhere, or no OBJ.
+        InputError: if it is outside, or not an OBJ file.
     """
     where, right = f"mesh {mesh!r}", "name an .obj file in the folder of the home file"
     if not mesh.endswith(_SUFFIX) or not mesh.isprintable():

@@ -1,6 +1,6 @@
-"""Where the things of a simulated home were left, kept in a file between two programs.
+"""Saves where the objects of a simulated home were left, for the next run of the program.
 
-The file is TOML: whose home it is, what time it is there, and `objects` as a home file has them.
+The file is TOML with the name of the home, the time there, and `objects` as in a home file.
 """
 
 import math
@@ -22,7 +22,7 @@ from sim.home.home import Home
 
 RIGHT = "name a file that --home-state made, or one that does not exist yet in a folder of yours"
 STANDS_M = 0.02
-"""What stands on a board is no farther above or below it."""
+"""An object stands on a board if its base is within this distance above or below it."""
 _SHOWN = 80
 
 
@@ -31,29 +31,29 @@ def _as_spot(value: object) -> object:
 
 
 class HomeState(BaseModel):
-    """Where the things of one home are, and when that was."""
+    """The spots of a home's objects at a moment."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
     home: str
-    """Its name."""
+    """The home's name."""
     time_s: Annotated[float, Field(strict=True, ge=0, le=1e11)]
-    """By the home's own clock: UTC (seconds since 1970)."""
+    """The time of the home's own clock (UTC, seconds since 1970)."""
     objects: Annotated[
         dict[str, Annotated[Spot, BeforeValidator(_as_spot)]], Field(max_length=200)
     ] = Field(default_factory=dict)
 
     def to_toml(self) -> str:
-        """As the file has it."""
+        """The content of the file."""
         spots = {name: _written(spot) for name, spot in self.objects.items()}
         return tomli_w.dumps({"home": self.home, "time_s": self.time_s, "objects": spots})
 
 
 def read_state(file: Path, home: Home) -> HomeState | None:
-    """What a file says of this home; None if there is no such file yet.
+    """Read the saved state of a home; None if there is no such file yet.
 
     Raises:
-        InputError: if it cannot be read, is none of ours, or does not fit to the home.
+        InputError: if the file cannot be read, is not a saved state, or does not fit the home.
     """
     if not os.path.lexists(file):
         return None
@@ -69,15 +69,15 @@ def read_state(file: Path, home: Home) -> HomeState | None:
     if state.home != home.name:
         what = f"is the state of the home {printable(state.home)[:_SHOWN]}, not of {home.name}"
         raise InputError(where, what, "give each home a file of its own")
-    _fit_to(home, state, where)
+    _check_fits(home, state, where)
     return state
 
 
-def _fit_to(home: Home, state: HomeState, where: str) -> None:
-    """Everything in it has to be something of this home.
+def _check_fits(home: Home, state: HomeState, where: str) -> None:
+    """Check that the home has all objects and furniture of a state.
 
     Raises:
-        InputError: if a thing or a piece of furniture is unknown.
+        InputError: if an object, a piece of furniture or a surface is unknown.
     """
     models = home.models()
     pieces = {piece.name: piece for piece in (*home.furniture, home.delivery)}
@@ -95,21 +95,21 @@ def _fit_to(home: Home, state: HomeState, where: str) -> None:
 
 
 def write_state(file: Path, state: HomeState) -> None:
-    """Write the file, whole or not at all.
+    """Write the file atomically.
 
     Raises:
-        OSError: if that fails; what was in the file is there still.
+        OSError: if that fails; the file then keeps its old content.
     """
     write_whole(file, state.to_toml().encode())
 
 
 def spot_on(piece: Furniture, position: Vector3, yaw: float) -> Spot:
-    """The spot of what stands on a piece of furniture; only the piece, if it stands on no board.
+    """The spot of an object on a piece of furniture; without coordinates if it is on no surface.
 
     Args:
         piece: the furniture.
-        position: of the thing's frame in `map` (metres).
-        yaw: of the thing in `map` (radians).
+        position: of the object's frame in `map` (metres).
+        yaw: of the object in `map` (radians).
     """
     ahead, left, height = piece.from_map(position)
     for index, surface in enumerate(piece.surfaces()):
@@ -122,12 +122,13 @@ def spot_on(piece: Furniture, position: Vector3, yaw: float) -> Spot:
 
 
 def with_room(home: Home) -> Home:
-    """The home with each thing where there is room for it.
+    """The home with every object where there is room for it.
 
-    What has none at its spot is put elsewhere on the same furniture, else on the first that has.
+    An object without room at its spot is moved elsewhere on the same furniture, or else to the
+    first piece that has room.
 
     Raises:
-        InputError: if there is room for it nowhere.
+        InputError: if there is no room for an object anywhere.
     """
     tried: dict[str, int] = {}
     while True:

@@ -1,4 +1,4 @@
-"""All that is wrong with a home that has the right form: names, plan, what stands where."""
+"""Finds the faults of a home whose file has valid keys and values: names, plan and placement."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import combinations
@@ -18,9 +18,9 @@ Flaw = tuple[str, str]
 """What is wrong, and what would be right."""
 
 LARGEST_M = 200.0
-"""A home that is longer was not meant in metres."""
+"""A larger home is probably not in metres."""
 _SHOWN = 30
-"""So many names are listed at most."""
+"""The most names in a list."""
 
 
 def with_placement(home: Home, placement: Mapping[str, str]) -> Home:
@@ -40,10 +40,10 @@ def with_placement(home: Home, placement: Mapping[str, str]) -> Home:
 
 
 def home_flaws(home: Home) -> Iterator[Flaw]:
-    """All that is wrong; what follows only from an earlier flaw is left out."""
-    unspeakable = list(_name_flaws(home))
-    yield from unspeakable
-    if unspeakable:
+    """All faults, without those that only follow from others."""
+    misnamed = list(_name_flaws(home))
+    yield from misnamed
+    if misnamed:
         return
     unbuildable = [*_room_flaws(home), *_furniture_flaws(home)]
     yield from unbuildable
@@ -55,7 +55,7 @@ def home_flaws(home: Home) -> Iterator[Flaw]:
 
 
 def _name_flaws(home: Home) -> Iterator[Flaw]:
-    """Names and kinds that are none, as all else would be told by them."""
+    """Invalid names and kinds; messages about other faults would contain them."""
     pieces = (*home.furniture, home.delivery)
     named = [("home", "name", home.name)]
     named += [("room", "name", room.name) for room in home.rooms]
@@ -92,12 +92,12 @@ def _room_flaws(home: Home) -> Iterator[Flaw]:
 
 
 def _taken(what: str, names: Sequence[str], rooms: Sequence[str] = ()) -> Iterator[Flaw]:
-    """Names that mean something else already, or that more than one goes by.
+    """Names that already mean something else, or that are used more than once.
 
     Args:
-        what: what has these names.
-        names: what each is called.
-        rooms: what the room of each is called, if it is in one.
+        what: what has these names, for messages.
+        names: the names.
+        rooms: the names of the rooms that each is in, if it is in one.
     """
     things = {folded(name) for name in load_objects()}
     for name in names:
@@ -115,7 +115,7 @@ def _taken(what: str, names: Sequence[str], rooms: Sequence[str] = ()) -> Iterat
 
 
 def _labels_taken(what: str, labels: Sequence[str], names: Sequence[str]) -> Iterator[Flaw]:
-    """Labels that mean something else, or by which another one goes."""
+    """Labels that already mean something else, or that are used more than once."""
     if any(labels):
         called = [label or name for label, name in zip(labels, names, strict=True)]
         yield from _taken(f"{what} that is called", called)
@@ -171,7 +171,7 @@ def _layout_flaws(home: Home) -> Iterator[Flaw]:
 
 
 def _own_flaws(home: Home) -> Iterator[Flaw]:
-    """Objects that the file declares under a name that something else has."""
+    """Declared objects whose name something else has, or that are named like a number."""
     yield from _taken("object", list(home.own))
     called = {folded(room.name): f"room {room.name}" for room in home.rooms}
     called |= {folded(piece.name): f"furniture {piece.name}" for piece in home.furniture}
@@ -183,7 +183,7 @@ def _own_flaws(home: Home) -> Iterator[Flaw]:
 
 
 def mesh_flaws(home: Home) -> Iterator[Flaw]:
-    """Meshes that are not there, are elsewhere, or cannot be used."""
+    """Meshes that are missing, outside the home's folder, or not usable."""
     for name in home.own:
         try:
             home.drawn_model(name)
@@ -193,7 +193,7 @@ def mesh_flaws(home: Home) -> Iterator[Flaw]:
 
 
 def object_flaws(home: Home) -> Iterator[Flaw]:
-    """Objects that do not exist, or are on furniture that does not."""
+    """Unknown objects, and objects on unknown furniture."""
     models = home.models()
     furniture = _surfaces_of(home)
     for name, spot in home.objects.items():
@@ -206,7 +206,7 @@ def object_flaws(home: Home) -> Iterator[Flaw]:
 
 
 def spot_flaws(home: Home) -> Iterator[Flaw]:
-    """Objects for which there is no room; those named otherwise are left out."""
+    """Objects without room on their furniture; those of `object_flaws` are skipped."""
     furniture, models = _surfaces_of(home), home.models()
     left = {n: s for n, s in home.objects.items() if n in models and s.furniture in furniture}
     while True:
@@ -220,7 +220,7 @@ def spot_flaws(home: Home) -> Iterator[Flaw]:
 
 
 def _surfaces_of(home: Home) -> dict[str, None]:
-    """Names of all furniture that things can be on, in the file's order."""
+    """Names of all furniture that objects can be on, in the file's order."""
     return dict.fromkeys([*(piece.name for piece in home.furniture), DELIVERY])
 
 

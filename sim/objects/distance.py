@@ -1,4 +1,4 @@
-"""Distance to the surface of a thing built from shapes, and which way it grows, at many points."""
+"""Signed distance, and its gradient, from many points to the surface of an object of shapes."""
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache
@@ -13,20 +13,20 @@ from executive.records import Shape
 
 Numbers = NDArray[np.floating[Any]]
 _AT_ONCE = 8_000
-"""Points times shapes that are computed together: what fits into a core's own memory."""
+"""Points times shapes that are computed together, so that the arrays fit into the CPU's cache."""
 _TINY = 1e-12
 _KEPT = 256
-"""Things whose distances are kept; a thing has up to six ways to lie."""
+"""Size of the cache of `distance_to`; an object has up to six resting poses."""
 
 
 class SignedDistance:
-    """The distance to the union of some shapes: negative inside of any (metres).
+    """The signed distance to the union of shapes (metres); negative inside.
 
-    Points are the columns of arrays (3, n), as the shapes' frame has them.
+    Points are columns of arrays (3, n), in the frame of the shapes.
     """
 
     def __init__(self, shapes: Sequence[Shape]) -> None:
-        """Sort the shapes by their kind."""
+        """Prepare the shapes, sorted by kind."""
         ordered = sorted(shapes, key=lambda shape: shape.kind)
         self._turns = np.stack([matrix_of(s.pose.orientation).T for s in ordered])
         middles = np.array([shape.pose.position for shape in ordered])
@@ -44,10 +44,10 @@ class SignedDistance:
         return np.concatenate([distances.min(axis=0) for distances in pieces])
 
     def with_gradient(self, points: Floats) -> tuple[Floats, Floats]:
-        """The distance (n,) of each point, and the unit vectors (3, n) in which it grows fastest.
+        """The distances (n,) of points, and their gradients (3, n), which are unit vectors.
 
-        At an edge or a middle, where there are several, it is one of them. Of shapes that are
-        nearest within a few nanometres, any is taken.
+        Where the gradient is not unique, as at an edge or a centre, it is one of the possible ones.
+        Among shapes whose distances differ by a few nanometres, any can count as the nearest.
         """
         pieces = self._in_pieces(points.astype(np.float32), *self._roughly)
         nearest = np.concatenate([distances.argmin(axis=0) for distances in pieces])
@@ -63,7 +63,7 @@ class SignedDistance:
     def _in_pieces(
         self, points: Numbers, axes: Numbers, shift: Numbers, half: Numbers
     ) -> Iterator[Numbers]:
-        """Distances (shapes, n) of some points after others."""
+        """Distances (shapes, n) in batches of points."""
         count = max(1, _AT_ONCE // len(half))
         for start in range(0, max(1, points.shape[1]), count):
             still_wanted()
@@ -72,7 +72,7 @@ class SignedDistance:
             yield parts[0] if len(parts) == 1 else np.concatenate(parts)
 
     def _by_kind(self, nearest: NDArray[np.intp]) -> Iterator[tuple[str, slice | NDArray[np.intp]]]:
-        """Each kind of shape, and to which points one of it is the nearest."""
+        """Each kind of shape, with the indices of the points whose nearest shape is of it."""
         if len(self._parts) == 1:
             yield self._parts[0][0], slice(None)
             return
@@ -82,12 +82,12 @@ class SignedDistance:
 
 @lru_cache(maxsize=_KEPT)
 def distance_to(shapes: tuple[Shape, ...]) -> SignedDistance:
-    """The distance to these shapes."""
+    """The signed distance to these shapes, cached."""
     return SignedDistance(shapes)
 
 
 def _parts(kinds: Sequence[str]) -> Iterator[tuple[str, slice]]:
-    """Each kind that there is, and where it is among the sorted ones."""
+    """Each kind that occurs, and its slice of the sorted kinds."""
     for kind in sorted(set(kinds)):
         first = kinds.index(kind)
         yield kind, slice(first, first + kinds.count(kind))
@@ -120,7 +120,7 @@ def _to_spheres(local: Floats, half: Floats) -> Floats:
     return away
 
 
-# --- distances (n,) of points (3, n) to shapes of half lengths (3, n), and how they grow (3, n) ---
+# --- distances (n,) of points (3, n) to shapes of half lengths (3, n), and gradients (3, n) ---
 
 
 def _from_box(local: Floats, half: Floats) -> tuple[Floats, Floats]:

@@ -1,8 +1,8 @@
-"""A mesh that somebody made of an object, checked, and brought to where the object is.
+"""Checks meshes that others made of an object, and aligns them with the object's own shapes.
 
-A mesh has a frame of its own. It is turned to where its points come nearest to the surface of our
-shape, scaled alike in all directions so that its bounding box has the volume of ours, and put with
-the middle of its base on ours. What things collide with stays the shape.
+A mesh has a frame of its own. It is rotated so that its points come nearest to the surface of our
+shapes, scaled uniformly so that its bounding box has the volume of ours, and placed with the centre
+of its base on ours. Collisions still use the shapes.
 """
 
 from collections.abc import Iterable
@@ -23,21 +23,21 @@ from sim.objects.objects import WHITE, ObjectModel
 from sim.objects.solids import signed_distance
 
 MOST_BYTES = 64 * 2**20
-"""Of a mesh or a texture; the largest of YCB's for google_16k have a tenth of that."""
+"""Size limit of a mesh or a texture; the largest google_16k files of YCB have a tenth of that."""
 LARGEST_PICTURE = 8192
 LONGEST_LINE = 1000
 _PICTURES = ("map_Kd", "map_Ka", "map_Ks", "map_Ns", "map_d", "map_bump", "map_Bump", "bump")
-"""What a material may name files with."""
+"""Keys in a material file that name picture files."""
 _POINTS = 300
 _RIGHT_ANGLES = Rotation.create_group("O")
 _COARSE, _FINE = np.arange(0.0, 90.0, 10.0), np.arange(-9.0, 10.0)
-"""Yaws that are tried before each right angle, and around the best of these (degrees)."""
+"""Yaws (degrees) that are tried with each right-angle rotation, and around the best of these."""
 _STANDING_M = 0.001
-"""So much nearer it must come before a scan is laid on another side than it has below."""
+"""A scan is laid on another side only if its mean distance to our shapes is smaller by this."""
 
 
 def aligned(model: ObjectModel, path: Path, color: Color = WHITE) -> Shape:
-    """The mesh of an OBJ file where the object's frame has the object.
+    """Read an OBJ file, and return its mesh aligned with the model, in the object's frame.
 
     Raises:
         InputError: if the file, its material or its texture cannot be used.
@@ -69,7 +69,7 @@ def _yaw(degrees: float) -> Rotation:
 
 
 def _fitted(model: ObjectModel, corners: Floats, turn: Rotation) -> tuple[float, Pose]:
-    """Scale and pose that bring turned points onto the base of the object."""
+    """The scale, and the pose with rotation `turn`, that bring points onto the object's base."""
     turned = turn.apply(corners)
     low, high = turned.min(axis=0), turned.max(axis=0)
     scale = float((np.prod(model.size) / np.prod(high - low)) ** (1 / 3))
@@ -80,7 +80,11 @@ def _fitted(model: ObjectModel, corners: Floats, turn: Rotation) -> tuple[float,
 
 
 def _read(path: Path) -> Floats:
-    """The points (n, 3) of an OBJ file that can be drawn."""
+    """The points (n, 3) of an OBJ file, after checks that PyBullet can draw it.
+
+    Raises:
+        InputError: if the file, its material or its texture cannot be used.
+    """
     text = _text(path)
     try:
         points, corners = _points_and_corners(text)
@@ -103,12 +107,12 @@ def _read(path: Path) -> Floats:
 
 
 def _points_and_corners(text: str) -> tuple[Floats, set[int]]:
-    """The points (n, 3), and the numbers from 1 on of those that faces have.
+    """The points (n, 3), and the numbers (from 1) of the points that faces use.
 
-    A face may count back from the point before it, which is -1.
+    A face can also count back from the last point before it, which is -1.
 
     Raises:
-        ValueError: if there is something else than numbers.
+        ValueError: if a number cannot be parsed.
     """
     points, corners = list[list[str]](), set[int]()
     for line in text.splitlines():
@@ -122,10 +126,10 @@ def _points_and_corners(text: str) -> tuple[Floats, set[int]]:
 
 
 def _beside(file: Path, line: str) -> Path:
-    """The file that a line names, which has to be in the same folder.
+    """The path of the file that a line names, which must be in the same folder.
 
     Raises:
-        InputError: if it is elsewhere.
+        InputError: if it is in another folder.
     """
     named = line.split(maxsplit=1)[1]
     there = file.parent / named
@@ -136,7 +140,7 @@ def _beside(file: Path, line: str) -> Path:
 
 
 def _check_picture(described: Path, picture: Path) -> None:
-    """See whether a texture is a picture of a sane size, by its head.
+    """Check by its header that a texture is a picture of acceptable size.
 
     Raises:
         InputError: if it is not.
@@ -155,7 +159,11 @@ def _check_picture(described: Path, picture: Path) -> None:
 
 
 def _text(path: Path, right: str = "") -> str:
-    """The text of a file of a model, whose lines are no longer than PyBullet can bear."""
+    """The text of a mesh or material file; PyBullet cannot read lines over LONGEST_LINE.
+
+    Raises:
+        InputError: if the file cannot be read, or has a longer line.
+    """
     text = read_bytes(path, MOST_BYTES, right=right).decode("utf-8", errors="replace")
     if max(map(len, text.splitlines()), default=0) > LONGEST_LINE:
         raise InputError(str(path), f"has a line of more than {LONGEST_LINE} characters")
@@ -163,5 +171,5 @@ def _text(path: Path, right: str = "") -> str:
 
 
 def _lines(text: str, key: str) -> list[str]:
-    """Lines that begin with this word and say something about it."""
+    """The lines that begin with a key."""
     return [line.strip() for line in text.splitlines() if line.split(maxsplit=1)[:1] == [key]]

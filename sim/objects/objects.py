@@ -1,4 +1,4 @@
-"""The things in the home: their mass, shape and how a two-finger hand takes them."""
+"""Models of objects: mass, shapes, and how a two-finger hand grasps them."""
 
 import math
 import re
@@ -22,30 +22,30 @@ from executive.types.geometry import Pose, Vector3
 Grasp = Literal["top", "rim", "handle"]
 TUBE_WALLS = 12
 ASSETS = Path(__file__).parents[1] / "assets" / "objects"
-"""A folder for each object, with its mesh as `textured.obj` and as `textured.glb`."""
+"""A folder for each object with a mesh, as `textured.obj` and as `textured.glb`."""
 WHITE: Color = (1.0, 1.0, 1.0, 1.0)
-"""Leaves the colours of a texture as they are."""
+"""Leaves the colours of a texture unchanged."""
 OPENING_M = 0.0755
-"""The widest that the robot's hand gets its fingers around: `sim.manipulation.grasps.WIDEST`."""
+"""The widest object that fits between the fingers: `sim.manipulation.grasps.WIDEST`."""
 PAYLOAD_KG = 3.0
-"""The heaviest that its arm may lift, by the maker's data sheet."""
+"""The arm's payload, from the maker's data sheet."""
 GREY: Color = (0.6, 0.6, 0.6, 1.0)
-"""Of what nobody gave a colour."""
+"""The default colour."""
 
 
-def _as_the_web_has_it(color: str) -> str:
+def _check_hex(color: str) -> str:
     if not re.fullmatch("#[0-9a-fA-F]{6}", color, re.ASCII):
         raise PydanticCustomError("color", "write red, green and blue as in #336699")
     return color
 
 
-HexColor = Annotated[str, AfterValidator(_as_the_web_has_it)]
-"""Red, green and blue, as the web has it: #336699."""
+HexColor = Annotated[str, AfterValidator(_check_hex)]
+"""Red, green and blue in HTML notation: #336699."""
 
 
 @dataclass(frozen=True, slots=True)
 class ObjectModel:
-    """One object, standing as it is put down.
+    """The model of an object, in the pose in which it is put down.
 
     Attributes:
         name: as in the ontology.
@@ -53,13 +53,13 @@ class ObjectModel:
         friction: lateral friction coefficient (the simulator multiplies those of both bodies).
         grasp: `top` (fingers straddle the narrow horizontal side from above), `rim` (one finger
             inside) or `handle`.
-        shapes: what it collides with, in the object frame, whose origin is the middle of the
-            resting base.
-        look: the textured mesh that is drawn of it, in the object frame; None: the shapes are.
-        shown: what a recording shows of it, in the object frame.
+        shapes: collision shapes in the object frame, whose origin is the centre of its base.
+        look: the textured mesh for the simulator's renderer, in the object frame; None: the shapes
+            are drawn.
+        shown: what the viewer of recordings draws, in the object frame.
         lower: lowest corner of the bounding box in the object frame (metres).
         upper: highest corner of the bounding box.
-        center_of_mass: in the object frame, all shapes taken as equally dense.
+        center_of_mass: in the object frame; all shapes have the same density.
     """
 
     name: str
@@ -87,36 +87,36 @@ def load_objects() -> dict[str, ObjectModel]:
 
 
 def rooms_of_objects() -> dict[str, tuple[str, ...]]:
-    """The kinds of rooms that each object of the package belongs into."""
+    """The kinds of rooms that each object of the package belongs in."""
     return {name: row.rooms for name, row in _rows().items()}
 
 
 def drawings() -> dict[str, str]:
-    """The module of `sim.modelling` that draws it, of each object that is drawn."""
+    """The modules of `sim.modelling` that make the meshes, by object; only objects with a mesh."""
     return {name: row.drawn_by for name, row in _rows().items() if row.drawn_by}
 
 
 def why_not_taken(model: ObjectModel) -> str | None:
-    """Why a hand could not take it, however it lies, as the end of a sentence; None if it may."""
+    """Why the robot can never pick an object up, as the end of a sentence; None if it may."""
     if model.grasp == "top" and min(model.size) > OPENING_M:
         return "it is wider than my hand opens"
     return "it is heavier than my arm may lift" if model.mass_kg > PAYLOAD_KG else None
 
 
 def rgba(color: HexColor) -> Color:
-    """A colour as the web writes it, such as #336699."""
+    """The colour of a text such as #336699."""
     red, green, blue = bytes.fromhex(color[1:])
     return red / 255, green / 255, blue / 255, 1.0
 
 
 def packaged_mesh(name: str, form: Literal["obj", "glb"]) -> Shape:
-    """The mesh of an object that `python -m sim.modelling` made, in the object frame."""
+    """The mesh of an object that `python -m sim.modelling` has made, in the object frame."""
     path = ASSETS / name / f"textured.{form}"
     return Shape("mesh", (1.0, 1.0, 1.0), WHITE, mesh=str(path))
 
 
 class _Part(BaseModel):
-    """A shape as the file writes it."""
+    """A shape in the file (metres, degrees)."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -132,7 +132,7 @@ class _Part(BaseModel):
         return (Shape(self.kind, self.size, WHITE, pose),)
 
     def _wall(self, index: int) -> Shape:
-        """One of the boxes that stand in a ring for the tube's wall."""
+        """One of the boxes that form the tube's wall, in a ring."""
         diameter, thickness, height = self.size
         angle = 2 * math.pi * index / TUBE_WALLS
         middle = (diameter - thickness) / 2
@@ -143,7 +143,7 @@ class _Part(BaseModel):
 
 
 class _Row(BaseModel):
-    """An object as the file writes it."""
+    """An object in the file."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -179,7 +179,7 @@ def object_model(
     look: Shape | None = None,
     shown: tuple[Shape, ...] = (),
 ) -> ObjectModel:
-    """A thing of these shapes, which the recording shows if it is told nothing else."""
+    """The model of an object of these shapes; `shown` is the shapes by default."""
     reach = np.array([_half_extent(shape) for shape in shapes])
     middle = np.array([shape.pose.position for shape in shapes])
     volume = np.array([_volume(shape) for shape in shapes])

@@ -1,4 +1,4 @@
-"""How a thing may lie: on its base, as it is put down, or fallen on one of its other sides."""
+"""The resting poses of an object: upright on its base, or fallen onto another side."""
 
 from dataclasses import dataclass, replace
 from functools import cache
@@ -13,18 +13,18 @@ from sim.objects.objects import ObjectModel
 from sim.objects.solids import sample_surface
 
 _FALLS = (("x", 90.0), ("x", -90.0), ("y", 90.0), ("y", -90.0), ("x", 180.0))
-"""From standing to each of the other sides (axis, degrees)."""
+"""Rotations from upright onto each of the other sides (axis, degrees)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Lying:
-    """How a thing lies.
+    """A resting pose.
 
     Attributes:
-        shapes: of the thing as it stands.
-        model: the thing as it lies: a model that rests on its own base.
-        fall: rotation matrix (3, 3) from how it stands to how it lies.
-        base: the middle of what is now its base, after that rotation (metres).
+        shapes: the shapes of the upright object, in its frame.
+        model: the model of the lying object, which rests on its own base.
+        fall: rotation matrix (3, 3) from upright to lying.
+        base: centre of the new base in the object frame, after that rotation (metres).
     """
 
     shapes: tuple[Shape, ...]
@@ -35,13 +35,13 @@ class Lying:
 
 @cache
 def lyings(model: ObjectModel) -> tuple[Lying, ...]:
-    """The thing as it stands, then as it may lie."""
+    """All resting poses of an object, upright first."""
     stands = Lying(model.shapes, model, np.eye(3), np.zeros(3))
     return (stands, *(_fallen(model, Rotation.from_euler(a, d, degrees=True)) for a, d in _FALLS))
 
 
 def _fallen(model: ObjectModel, fall: Rotation) -> Lying:
-    """The model turned, with the origin in the middle of what is now its base."""
+    """The resting pose after a fall, with the origin of the model at the centre of the new base."""
     surface = fall.apply(sample_surface(model.shapes)[0])
     low, high = surface.min(axis=0), surface.max(axis=0)
     base = np.append((low[:2] + high[:2]) / 2, low[2])

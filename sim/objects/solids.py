@@ -1,4 +1,4 @@
-"""Distance to, and points on, the surface of a thing built from boxes, cylinders and spheres."""
+"""Signed distance to, and points on, the surface of a union of boxes, cylinders and spheres."""
 
 from collections.abc import Sequence
 from functools import lru_cache
@@ -10,11 +10,11 @@ from executive.records import Shape
 from sim.objects.distance import distance_to
 
 _KEPT = 256
-"""Surfaces that are kept."""
+"""Size of the cache of surfaces."""
 
 
 def signed_distance(shapes: Sequence[Shape], points: Floats) -> Floats:
-    """How far points (n, 3) are outside the union of the shapes: negative inside (metres, (n,))."""
+    """(n,) signed distance of points (n, 3) to the union of shapes; negative inside (metres)."""
     return distance_to(tuple(shapes)).at(points.T)
 
 
@@ -31,7 +31,7 @@ def _surface(shapes: tuple[Shape, ...], spacing: float) -> tuple[Floats, Floats]
 
 
 def sample_surface(shapes: Sequence[Shape], spacing: float = 0.004) -> tuple[Floats, Floats]:
-    """Points (n, 3) about `spacing` metres apart on the outside, and their unit normals (n, 3)."""
+    """Points (n, 3) on the outer surface, about `spacing` metres apart; unit normals (n, 3)."""
     points, normals = _surface(tuple(shapes), spacing)
     return points.copy(), normals.copy()
 
@@ -73,7 +73,7 @@ def _on_cylinder(size: Floats, spacing: float) -> tuple[Floats, Floats]:
 
 
 def _on_sphere(size: Floats, spacing: float) -> tuple[Floats, Floats]:
-    """A Fibonacci lattice."""
+    """Points of a Fibonacci lattice."""
     radius = size[0] / 2
     index = np.arange(max(50, round(4 * np.pi * radius**2 / spacing**2))) + 0.5
     z = 1 - 2 * index / len(index)

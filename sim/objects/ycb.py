@@ -1,6 +1,6 @@
-"""A folder of real YCB models, to be seen instead of ours: `NNN_name/google_16k/textured.obj`.
+"""Draws objects with real YCB scans, from a folder with `NNN_name/google_16k/textured.obj`.
 
-A scan is brought to where our shape of the object is, at the published size: see `meshes`.
+A scan is aligned with our shapes of the object, which have the published size: see `meshes`.
 """
 
 import re
@@ -14,14 +14,14 @@ from sim.objects.objects import ObjectModel
 
 MESH = Path("google_16k", "textured.obj")
 _NUMBER = re.compile(r"\d{3}(-[a-z])?_")
-"""`013_apple`, `070-a_colored_wood_blocks`: without it, YCB's names are the ontology's."""
+"""The number, as in `013_apple` or `070-a_colored_wood_blocks`; the rest is the ontology's name."""
 
 
 def with_scans(models: Mapping[str, ObjectModel], folder: Path) -> dict[str, ObjectModel]:
-    """The models, looking like their scan where the folder has one.
+    """The models, with a scan to draw where the folder has one.
 
     Raises:
-        InputError: if the folder has none of them, or one of its files is broken.
+        InputError: if the folder has no scan of these objects, or one of its files is broken.
     """
     found = {_NUMBER.sub("", path.parts[-3]): path for path in _meshes(folder)}
     known = {name: path for name, path in found.items() if name in models}
@@ -35,5 +35,5 @@ def with_scans(models: Mapping[str, ObjectModel], folder: Path) -> dict[str, Obj
 
 
 def _meshes(folder: Path) -> list[Path]:
-    """The last of several models of one object first."""
+    """The mesh files, in reverse order: of several for one object, the first by name is used."""
     return sorted(folder.glob(f"[0-9][0-9][0-9]*_*/{MESH}"), reverse=True)

@@ -1,10 +1,10 @@
-"""Pictures that are drawn beside the physics, by a process with its own copy of the world.
+"""Draws pictures in a second process, which has its own copy of the world, beside the physics.
 
-A world has one such process at most, for those of the log and for what the robot looks at. What it
-draws is the same, but for a pixel now and then in which two surfaces are equally far: a frame's
-pixels come later. For those of the log nobody waits; for what the robot looks at the mission waits,
-but a stop is heard meanwhile. Where there is no such process, or too much waits for it, pictures
-are drawn here and at once.
+A world has at most one such process, for the pictures of the log and of the robot's camera. Its
+pictures are the same as ours, except for rare pixels in which two surfaces are equally far. The
+pixels of a frame arrive later than the frame. Nobody waits for pictures of the log; the mission
+waits for those of the robot's camera, but can be stopped meanwhile. If there is no such process, or
+too many pictures are queued, this process draws the picture at once.
 """
 
 import logging
@@ -25,47 +25,52 @@ log = logging.getLogger(__name__)
 
 
 def worthwhile() -> bool:
-    """Whether a second process has a core of its own; the workers of a pool share theirs."""
+    """Whether a second process has a CPU core to itself; the workers of a pool share theirs."""
     return _cores() > 1 and multiprocessing.parent_process() is None
 
 
 def _cores() -> int:
-    """Those that this process may use."""
+    """Number of CPU cores that this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
 
 
 class Beside:
-    """The process of one world, which draws what any camera in it sees, as long as it can."""
+    """Draws pictures of one world's cameras in a second process, as long as that works."""
 
     def __init__(self, actors: Actors, blueprint: Blueprint, recorder: Recorder) -> None:
-        """Start it.
+        """Start the process; if it cannot be started, `draw` returns None.
 
         Args:
-            actors: what moves in the world.
-            blueprint: of the world, which is built.
-            recorder: is told when the process draws no more.
+            actors: all that moves in the world.
+            blueprint: how the world looks; the world must be complete.
+            recorder: receives a warning if the process fails.
         """
         self._actors = actors
         self._recorder = recorder
         self._painter: Painter | None = None
-        self._untold = ""
-        """Why there is no painter, until that is told."""
+        self._unreported = ""
+        """Why there is no painter; empty if there is one, or once it is reported."""
         stage = Stage(blueprint.looks, actors.bodies, actors.robot)
         try:
             self._painter = Painter(stage)
         except (OSError, RuntimeError) as error:  # no process, or no thread, is to be had
-            self._untold = f"no process can be started for them: {error}"
+            self._unreported = f"no process can be started for them: {error}"
 
     def draw(self, camera: SimulatedCamera, *, awaited: bool) -> Frame | None:
-        """The picture of this moment, which will come; None if it has to be drawn here."""
+        """Request a picture of the current world; None if this process has to draw it.
+
+        Args:
+            camera: which camera.
+            awaited: whether the caller will wait for the pixels.
+        """
         coming = self._coming(camera, awaited)
-        if self._untold:
-            text = printable(f"pictures are not drawn beside the physics: {self._untold}")
+        if self._unreported:
+            text = printable(f"pictures are not drawn beside the physics: {self._unreported}")
             log.warning("%s", text)
             self._recorder.record(Note("warning", text))
-            self._untold = ""
+            self._unreported = ""
         return coming
 
     def _coming(self, camera: SimulatedCamera, awaited: bool) -> Frame | None:
@@ -76,30 +81,30 @@ class Beside:
         if pixels is not None:
             return ComingFrame(next(camera.numbers), lens, pose, pixels)
         if self._painter.failure:
-            self._untold = self._painter.failure
+            self._unreported = self._painter.failure
             self.close()
         return None
 
     def close(self) -> None:
-        """Have what was asked for drawn, and end the process."""
+        """Wait until all requested pictures are drawn, then end the process."""
         if self._painter is not None:
             self._painter.close()
             self._painter = None
 
 
 class CameraBeside:
-    """A Camera whose pictures are drawn by that process, and by this one where that cannot."""
+    """A Camera whose pictures the second process draws, or this process if that is not possible."""
 
     def __init__(self, camera: SimulatedCamera, beside: Beside, *, awaited: bool = False) -> None:
-        """See what `camera` sees; both count their pictures together.
+        """Take pictures with the pose, lens and numbers of `camera`.
 
-        Of pictures that are awaited there is one at a time, and none is drawn here only because
-        others wait: a stop would not be heard meanwhile.
+        With `awaited`, the caller waits for each picture before it takes the next. Such a picture
+        is queued however long the queue is: while this process draws, it cannot hear a stop.
         """
         self._camera = camera
         self._beside = beside
         self._awaited = awaited
 
     def capture(self) -> Frame:
-        """The picture of this moment."""
+        """Take a picture now; its pixels may arrive later (see `ComingFrame`)."""
         return self._beside.draw(self._camera, awaited=self._awaited) or self._camera.capture()

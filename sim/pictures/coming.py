@@ -1,4 +1,4 @@
-"""A picture that another process draws: its pixels come later than it is taken."""
+"""A frame that another process draws: its pixels arrive after the frame was taken."""
 
 from collections.abc import Callable
 from concurrent.futures import Future
@@ -10,21 +10,21 @@ from numpy.typing import NDArray
 from executive.types.geometry import Pose
 from executive.types.perception import Frame, Intrinsics
 
-if TYPE_CHECKING:  # the renderer takes long to import, and not all who get pictures have one
+if TYPE_CHECKING:  # the renderer takes long to import, and not all users of frames need it
     from sim.pictures.painter import Pixels
 
 
 class NotDrawnError(RuntimeError):
-    """A picture that was asked for will never be there.
+    """A requested picture will never arrive.
 
-    It is no OSError: a log that cannot have the picture is sound all the same.
+    It is no OSError, because that would mean that the log cannot be written.
     """
 
 
 class ComingFrame(Frame):
-    """A Frame whose pixels are still drawn; who reads them waits for them.
+    """A Frame whose pixels may still be missing; reading them waits until they are drawn.
 
-    Reading them raises what the drawing raised.
+    Reading them raises the exception of the drawing, if it failed.
     """
 
     __slots__ = ("_pixels",)
@@ -33,31 +33,31 @@ class ComingFrame(Frame):
     def __init__(
         self, number: int, intrinsics: Intrinsics, pose: Pose, pixels: "Future[Pixels]"
     ) -> None:
-        """All is known but the pixels."""
+        """Make a frame of which only the pixels are missing."""
         known = {"number": number, "intrinsics": intrinsics, "pose": pose, "_pixels": pixels}
         for name, value in known.items():
             object.__setattr__(self, name, value)  # frames are frozen
 
     @property
     def coming(self) -> bool:
-        """It is taken as such when it has come, too: what follows is the same."""
+        """True even when the pixels are there, so that what follows does not depend on timing."""
         return True
 
     @property
     def is_drawn(self) -> bool:
-        """Whether nobody has to wait for its pixels, or they will never be there."""
+        """Whether the pixels have arrived, or the drawing has failed."""
         return self._pixels.done()
 
     def when_drawn(self, then: Callable[[], None]) -> None:
-        """Call this when it is, on whichever thread."""
+        """Call `then` when `is_drawn` becomes true, on any thread; at once if it is true."""
         self._pixels.add_done_callback(lambda _: then())
 
     @property
     def color(self) -> NDArray[np.uint8]:
-        """As any frame's."""
+        """As in `Frame`; waits."""
         return self._pixels.result()[0]
 
     @property
     def depth(self) -> NDArray[np.float32]:
-        """As any frame's."""
+        """As in `Frame`; waits."""
         return self._pixels.result()[1]

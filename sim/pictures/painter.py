@@ -1,11 +1,11 @@
-"""The process that draws: it has a copy of a world, and makes pictures of it when it is asked.
+"""The program of the drawing process: it has a copy of a world, and draws pictures on request.
 
-It is spoken to over its standard input, and answers over its standard output. When the input ends,
-because the process that asked is over, however that came, it ends, too. Of ours it imports nothing
-that draws no pictures: it begins fast, and stays small.
+Requests come on its standard input, pixels go to its standard output, both pickled. It ends when
+its input ends, that is, when the requesting process ends in any way. Of this project it imports
+only what draws pictures, so that it starts fast and stays small.
 
-Of a large picture that somebody waits for it draws one part, and a process that is forked off it,
-and shares its memory, draws the other at the same time.
+For a large picture that somebody waits for, it draws one half, while a forked process, which shares
+its memory, draws the other.
 """
 
 import os
@@ -26,12 +26,18 @@ from sim.engine import BulletClient
 from sim.pictures.scene import Actors, Looks, Moment, build
 
 PROTOCOL = 5
-"""Of pickle: arrays are sent as they are."""
+"""Version of pickle's protocol; this one makes no intermediate copies of arrays."""
 
 
 @dataclass(frozen=True, slots=True)
 class Stage:
-    """What there is in the world, and what of it moves, by its ids there."""
+    """The world to draw.
+
+    Attributes:
+        looks: how to build its bodies.
+        bodies: ids of the movable bodies in the original world.
+        robot: id of the robot there.
+    """
 
     looks: Looks
     bodies: Sequence[int]
@@ -40,12 +46,12 @@ class Stage:
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """A picture that is wanted, of a moment.
+    """A request for a picture.
 
     Attributes:
-        view: what it shows.
-        moment: when.
-        awaited: whether somebody waits for it.
+        view: the camera's view.
+        moment: poses of all that moves.
+        awaited: whether somebody waits for the picture.
     """
 
     view: View
@@ -54,31 +60,31 @@ class Asked:
 
 
 Pixels = tuple[NDArray[np.uint8], NDArray[np.float32]]
-"""Colour and depth of a picture, as a `Rendering` has them."""
+"""Colour and depth of a picture, as in `Rendering`."""
 
 
 def main() -> None:
-    """Draw what is asked for until the input ends."""
+    """Draw requested pictures until the input ends."""
     try:
         _paint(sys.stdin.buffer, _private_output())
     except (EOFError, BrokenPipeError):
-        os._exit(0)  # at once: there is nothing to put in order, and somebody may wait for it
+        os._exit(0)  # at once: there is nothing to clean up, and the parent may wait for the end
 
 
 def _paint(asked: IO[bytes], answers: IO[bytes]) -> NoReturn:
     client = connect()
     stage: Stage = pickle.load(asked)
-    easel = _Easel(client, stage)
-    twin = _Twin(easel)
+    renderer = _Renderer(client, stage)
+    pair = _Pair(renderer)
     while True:
         wanted: Asked = pickle.load(asked)
-        pixels = twin.draw(wanted) if wanted.awaited else easel.draw(wanted)
+        pixels = pair.draw(wanted) if wanted.awaited else renderer.draw(wanted)
         pickle.dump(pixels, answers, PROTOCOL)
         answers.flush()
 
 
-class _Easel:
-    """Where pictures are drawn by one process."""
+class _Renderer:
+    """Draws pictures in this process alone."""
 
     def __init__(self, client: BulletClient, stage: Stage) -> None:
         here = build(client, stage.looks)
@@ -86,51 +92,52 @@ class _Easel:
         self._actors = Actors(client, [here[body] for body in stage.bodies], here[stage.robot])
 
     def draw(self, wanted: Asked) -> Pixels:
-        """All of it."""
+        """Draw the whole picture."""
         self._actors.put(wanted.moment)
         seen = draw(self._client, wanted.view)
         return seen.color, seen.depth
 
     def draw_part(self, wanted: Asked) -> Pixels:
-        """What is drawn in one go."""
+        """Draw a view in one call of the renderer, as one half of a picture."""
         self._actors.put(wanted.moment)
         seen = draw_part(self._client, wanted.view)
         return seen.color, seen.depth
 
 
-class _Twin:
-    """A process that is forked off this one, and draws the second part of a picture meanwhile."""
+class _Pair:
+    """Draws pictures in two halves at once, one in this process, one in a forked process."""
 
-    def __init__(self, easel: _Easel) -> None:
-        self._easel = easel
-        self._twin, here = Pipe()
+    def __init__(self, renderer: _Renderer) -> None:
+        self._renderer = renderer
+        self._forked, here = Pipe()
         process = None
-        with suppress(OSError):  # no more processes: this one draws both parts
+        with suppress(OSError):  # no more processes possible: this one draws both halves
             process = os.fork()
         if process == 0:
-            self._twin.close()
-            self._help(here)
+            self._forked.close()
+            self._serve(here)
         here.close()
 
     def draw(self, wanted: Asked) -> Pixels:
-        """What the easel would show, sooner; by the easel alone, if the twin is gone."""
+        """Draw the whole picture; by this process alone if the forked one is gone."""
         mine, *others = (replace(wanted, view=view) for view in parts(wanted.view))
         try:
             for part in others:
-                self._twin.send(part)
-            drawn = [self._easel.draw_part(mine), *(self._twin.recv() for _ in others)]
+                self._forked.send(part)
+            drawn = [self._renderer.draw_part(mine), *(self._forked.recv() for _ in others)]
         except (OSError, EOFError):
-            return self._easel.draw(wanted)
+            return self._renderer.draw(wanted)
         color, depth = map(interleaved, zip(*drawn, strict=True))
         return color, depth
 
-    def _help(self, asked: Connection) -> NoReturn:
+    def _serve(self, requests: Connection) -> NoReturn:
+        """Draw the requested halves, in the forked process."""
         while True:
-            asked.send(self._easel.draw_part(asked.recv()))
+            requests.send(self._renderer.draw_part(requests.recv()))
 
 
 def _private_output() -> IO[bytes]:
-    """What was standard output; whatever PyBullet prints there from now on goes nowhere."""
+    """The former standard output; what PyBullet prints from now on goes to /dev/null."""
     kept = os.dup(1)
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 1)

@@ -1,4 +1,4 @@
-"""The process that draws, as seen from the one that asks it."""
+"""Starts the drawing process, sends it requests and receives its pictures."""
 
 import os
 import pickle
@@ -14,31 +14,35 @@ from sim.pictures.coming import NotDrawnError
 from sim.pictures.painter import PROTOCOL, Asked, Pixels, Stage
 
 MOST_WAITING = 4
-"""Pictures that may wait to be drawn; any more are for who asks for them to draw."""
+"""Pictures that may be queued; for any more, the caller has to draw."""
 PATIENCE_S = 10.0
-"""The longest that a picture may take (real seconds), the start of the process included."""
+"""Timeout of a picture (real seconds); the first includes the start of the process."""
 ENDING_S = 0.2
 """How long the process may take to end by itself (real seconds)."""
 PIPE_BYTES = 1 << 20
-"""Room for a picture on its way, where the system allows to set it."""
+"""Size of the pipe's buffer, large enough for a picture, where the system allows to set it."""
 PROGRAM = "import sys; sys.path[:] = {path!r}; from sim.pictures.painter import main; main()"
 _NO_THREADS = {"OPENBLAS_NUM_THREADS": "1"}
-"""It does no linear algebra."""
+"""The drawing process does no linear algebra."""
 
 
 def command() -> list[str]:
-    """What starts it, with the packages of this process."""
+    """The command that starts the drawing process, with the module path of this process."""
     return [sys.executable or "", "-c", PROGRAM.format(path=sys.path)]
 
 
 class Painter:
-    """Asks the process for one picture after the other, on a thread of its own."""
+    """Requests pictures from the drawing process, one at a time, on a thread of its own."""
 
     def __init__(self, stage: Stage, program: Sequence[str] = ()) -> None:
-        """Start it, and have it build its copy of a world; `program` is another one to start.
+        """Start the process, and send it the world to build.
+
+        Args:
+            stage: the world.
+            program: a command to start instead of the drawing process.
 
         Raises:
-            OSError: if there can be no such process.
+            OSError: if the process cannot be started.
         """
         self._process = subprocess.Popen(
             program or command(),
@@ -46,40 +50,41 @@ class Painter:
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
             env={**os.environ, **_NO_THREADS},
-            start_new_session=True,  # Ctrl-C is not for it
+            start_new_session=True,  # it must not get the Ctrl-C of the terminal
             pipesize=PIPE_BYTES,
         )
         self._thread = ThreadPoolExecutor(1, "pictures")
         self._waiting: list[Future[Pixels]] = []
         self.failure = ""
-        """Why it draws no more; empty while it does."""
-        self._thread.submit(self._say, stage)
+        """Why the process draws no more; empty while it works."""
+        self._thread.submit(self._send, stage)
 
     def paint(self, asked: Asked) -> "Future[Pixels] | None":
-        """Ask for a picture; None if it draws no more, or too many others wait already.
+        """Request a picture; None if the process draws no more, or if the queue is full.
 
-        One that is awaited is drawn in any case: who asks for it asks for one at a time.
+        An awaited picture is queued in any case: its caller requests only one at a time.
         """
         self._waiting = [coming for coming in self._waiting if not coming.done()]
         if self.failure or (len(self._waiting) >= MOST_WAITING and not asked.awaited):
             return None
-        coming = self._thread.submit(self._painted, asked)
+        coming = self._thread.submit(self._receive, asked)
         self._waiting.append(coming)
         return coming
 
     def close(self) -> None:
-        """Have what was asked for drawn, and end the process."""
+        """Wait until all requested pictures are drawn, then end the process."""
         wait(self._waiting, PATIENCE_S)
         self._end()
         self._thread.shutdown()
 
     # --- on its thread ---
 
-    def _painted(self, asked: Asked) -> Pixels:
+    def _receive(self, asked: Asked) -> Pixels:
+        """Send a request, and wait for its pixels."""
         if self.failure:
             raise NotDrawnError(self.failure)
         try:
-            self._say(asked)
+            self._send(asked)
             pixels: Pixels = pickle.load(self._answers())
         except Exception as error:
             self.failure = self._why(error)
@@ -92,13 +97,17 @@ class Painter:
         self._process.kill()
         return f"the process that drew them has ended (exit status {self._process.wait()})"
 
-    def _say(self, what: Stage | Asked) -> None:
+    def _send(self, what: Stage | Asked) -> None:
         assert self._process.stdin is not None
         pickle.dump(what, self._process.stdin, PROTOCOL)
         self._process.stdin.flush()
 
     def _answers(self) -> IO[bytes]:
-        """What it says, once it says something."""
+        """The process's output, once there is something to read.
+
+        Raises:
+            TimeoutError: if there is nothing for PATIENCE_S.
+        """
         answers = self._process.stdout
         assert answers is not None
         if not select.select([answers], [], [], PATIENCE_S)[0]:
@@ -110,7 +119,7 @@ class Painter:
             self._process.kill()
         assert self._process.stdin is not None
         assert self._process.stdout is not None
-        with suppress(OSError):  # what it did not read
+        with suppress(OSError):  # the process has not read everything
             self._process.stdin.close()
         try:
             self._process.wait(ENDING_S)

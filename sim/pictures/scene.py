@@ -1,6 +1,6 @@
-"""What a world looks like, written down while it is built, so that another can be built like it.
+"""Records how a world is built, so that another process can build one that looks the same.
 
-Of ours it imports the engine alone, for it is also used by a process that does nothing else.
+Of this project it imports only the engine, so that the process that only draws starts fast.
 """
 
 import tempfile
@@ -13,23 +13,27 @@ from sim.engine import BulletClient
 from sim.engine import pybullet as p
 
 Step = tuple[str, tuple[Any, ...], dict[str, Any]]
-"""One of PyBullet's functions, and what it was given beside what the step before had made."""
+"""A call of a PyBullet function: its name, and its arguments without the ids of shapes or bodies,
+which come from the step before."""
 Looks = Mapping[int, Sequence[Step]]
-"""How each body of a world came to look as it does, by its id, in the order they were built."""
+"""The calls that build each body of a world, by body id, in the order of building."""
 Placed = tuple[tuple[float, ...], tuple[float, ...]]
 """Position and orientation of a body."""
 
 _NO_SHAPE = -1
 _STAYS = 0.0
-"""The mass of what no physics moves."""
+"""The mass of bodies that the physics does not move."""
 _ONLY_SEEN = p.URDF_IGNORE_COLLISION_SHAPES
 
 
 class Blueprint:
-    """Writes down what is built in a world from now on, as far as it can be seen."""
+    """Records the calls that build the visible parts of a world.
+
+    It replaces functions of the client by ones that also record their arguments.
+    """
 
     def __init__(self, client: BulletClient) -> None:
-        """Nothing is in that world yet."""
+        """Record from now on; the world of `client` must be empty."""
         self.looks: dict[int, list[Step]] = {}
         self._shapes: dict[int, Step] = {}
         for name in ("createVisualShape", "createVisualShapeArray"):
@@ -79,13 +83,14 @@ class Blueprint:
 
 
 def build(client: BulletClient, looks: Looks) -> dict[int, int]:
-    """Build what looks like the world that was written down; nothing in it can be touched.
+    """Build a world that looks like the recorded one, without collision shapes.
 
-    It is built in reverse, for what is built first is drawn first. So things come before furniture,
-    and that before walls and floors: of what something nearer hides no colours are worked out.
+    Bodies are built in reverse order, because the renderer draws in the order of building: objects
+    before furniture, and furniture before walls and floors. It then saves the shading of surfaces
+    that nearer ones hide.
 
     Returns:
-        The bodies' ids, by those in that world.
+        The ids of the bodies, by their ids in the recorded world.
     """
     return {body: _build(client, steps) for body, steps in reversed([*looks.items()])}
 
@@ -115,11 +120,11 @@ def _load(client: BulletClient, description: str, **named: Any) -> int:
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """Where everything is that moves.
+    """The poses of all that moves.
 
     Attributes:
-        bodies: in the order of the Actors.
-        joints: those of the robot that can move, in its order.
+        bodies: poses of the bodies, in the order of `Actors`.
+        joints: positions of the robot's movable joints (metres, radians), in its order.
     """
 
     bodies: tuple[Placed, ...] = ()
@@ -127,10 +132,10 @@ class Moment:
 
 
 class Actors:
-    """All that moves in a world: bodies, and one robot with joints."""
+    """All that moves in a world: rigid bodies, and one robot with joints."""
 
     def __init__(self, client: BulletClient, bodies: Sequence[int], robot: int) -> None:
-        """Of bodies the whole moves, of the robot each joint that can."""
+        """Follow these bodies, given by their ids, and all movable joints of the robot."""
         self._client = client
         self.bodies = bodies
         self.robot = robot
@@ -139,13 +144,13 @@ class Actors:
         self._positions: dict[int, float] = {}
 
     def where(self) -> Moment:
-        """Where they are."""
+        """The current poses."""
         place = self._client.getBasePositionAndOrientation
         states = self._client.getJointStates(self.robot, self._joints)
         return Moment(tuple(map(place, self.bodies)), tuple(state[0] for state in states))
 
     def put(self, moment: Moment) -> None:
-        """Have them be where those were of a world that this one looks like."""
+        """Set the poses, which come from the recorded world."""
         for body, placed in zip(self.bodies, moment.bodies, strict=True):
             if self._places.get(body) != placed:
                 self._client.resetBasePositionAndOrientation(body, *placed)

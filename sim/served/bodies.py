@@ -1,4 +1,4 @@
-"""The two simulated bodies as one who serves them sees them: what a robot knows of itself."""
+"""The interface of the server to the simulated robots of both worlds."""
 
 import math
 from typing import TYPE_CHECKING, Protocol
@@ -15,93 +15,93 @@ from sim.goals import AnyGoal, Face, GoTo, Grip, MoveHand, MoveJoints
 from sim.home.furniture import PlanarPose
 from sim.home.home import Home
 
-if TYPE_CHECKING:  # it takes long to import, and the instant world does without
+if TYPE_CHECKING:  # slow to import, and not needed for the instant world
     from sim.world import PhysicsWorld
 
 NEAR_M, NEAR_RAD = 0.01, 0.02
-"""A pose that is so near to where one stands to use a place, means that place."""
+"""A goal pose this near to the pose for using a place stands for that place."""
 ON_THE_FLOOR_M = 0.02
-"""A point that is not higher is on the floor."""
+"""Points below this height are on the floor."""
 Joints = dict[str, tuple[float, float]]
-"""Position and velocity of each (metres, radians; a second)."""
+"""(position, velocity) of each joint by name (m, m/s; rad, rad/s)."""
 
 
 class Body(Protocol):
-    """A robot in its world. All of it belongs to one thread."""
+    """A robot in its world. Use it on one thread only."""
 
     camera: Camera
 
     @property
     def world(self) -> SimulatedHome:
-        """For who checks what came of it: no client hears of it."""
+        """Ground truth, for tests; it is not served to clients."""
         ...
 
     @property
     def draws_beside(self) -> bool:
-        """Whether the camera's pictures are drawn by another process, so that nobody waits."""
+        """Whether another process draws the camera's pictures, so that the robot need not wait."""
         ...
 
     @property
     def busy(self) -> bool:
-        """Whether it acts; if not, no time passes."""
+        """Whether the robot pursues a goal; if not, no time passes."""
         ...
 
     @property
     def moves(self) -> bool:
-        """Whether any part of it does."""
+        """Whether any part of the robot moves."""
         ...
 
     @property
     def computing(self) -> bool:
-        """Whether it waits for something to be computed; no time passes meanwhile."""
+        """Whether the robot waits for a computation; no time passes meanwhile."""
         ...
 
     def advance(self, at_most: float) -> float:
-        """Let at most so many seconds pass; return how many."""
+        """Let at most `at_most` seconds pass; return how many have passed."""
         ...
 
     def start(self, goal: AnyGoal) -> int:
-        """Pursue a goal."""
+        """Pursue a goal; return the number of the request."""
         ...
 
     def cancel(self, request: int) -> None:
-        """Give it up."""
+        """Cancel the goal of a request."""
         ...
 
     def look(self, point: Vector3) -> Goal | Face:
-        """The goal of one who wants to look at a point of `map`."""
+        """The goal that looks at a point of `map` (metres)."""
         ...
 
     @property
     def pose(self) -> PlanarPose:
-        """Of `base_link` in `map` (metres, radians)."""
+        """(x, y, yaw) of `base_link` in `map` (metres, radians)."""
         ...
 
     @property
     def velocity(self) -> PlanarPose:
-        """Of `base_link`, in its own frame (m/s, rad/s)."""
+        """Velocity of `base_link` in its own frame (m/s, m/s, rad/s)."""
         ...
 
     @property
     def holding(self) -> bool:
-        """Whether both fingers touch a thing."""
+        """Whether the hand holds an object."""
         ...
 
     @property
     def gap(self) -> float:
-        """Between the fingers (metres)."""
+        """The gap between the fingers (metres)."""
         ...
 
     def joints(self) -> Joints:
-        """Those of head, arm and hand."""
+        """The states of the joints of head, lift, arm and hand."""
         ...
 
     def frames(self) -> tuple[Transform, ...]:
-        """Where its links are, each in the one that carries it, the base in `map`."""
+        """The transforms of the links, each in its parent's frame, and of the base in `map`."""
         ...
 
     def close(self) -> None:
-        """Free the world."""
+        """Close the world."""
         ...
 
 
@@ -109,7 +109,7 @@ class PhysicsBody:
     """Implements Body in PyBullet."""
 
     def __init__(self, world: "PhysicsWorld") -> None:
-        """Serve the robot of this world."""
+        """Use the robot of this world."""
         self.world = world
         self._robot = world.robot
         self.camera = world.eyes
@@ -123,31 +123,31 @@ class PhysicsBody:
 
     @property
     def busy(self) -> bool:
-        """While a skill is under way; what the robot let go of may settle later."""
+        """Whether a skill runs; released objects that still move do not count."""
         return self._robot.active
 
     @property
     def moves(self) -> bool:
-        """By its encoders."""
+        """Whether the encoders show motion."""
         return bool(self._robot.moving())
 
     @property
     def computing(self) -> bool:
-        """While it plans."""
+        """Whether a skill waits for a computation."""
         return self._robot.computing
 
     def look(self, point: Vector3) -> Goal | Face:
-        """Simply that."""
+        """A goal for the head; the base does not turn."""
         return Face(point)
 
     @property
     def pose(self) -> PlanarPose:
-        """By its encoders."""
+        """From the encoders."""
         return self._robot.base_pose
 
     @property
     def velocity(self) -> PlanarPose:
-        """By its encoders."""
+        """From the encoders."""
         x, y, turn = (float(value) for value in self.world.hardware.base_velocity)
         yaw = self._robot.base_pose[2]
         ahead = x * math.cos(yaw) + y * math.sin(yaw)
@@ -155,20 +155,20 @@ class PhysicsBody:
 
     @property
     def holding(self) -> bool:
-        """By touch."""
+        """From the touch sensors."""
         return self._robot.holding
 
     @property
     def gap(self) -> float:
-        """By the encoders of the fingers."""
+        """From the fingers' encoders."""
         return self.world.hardware.gap
 
 
 class FakeBody:
-    """Implements Body in the instant world, where the robot glides from place to place."""
+    """Implements Body in the instant world, where the base drives in straight lines."""
 
     def __init__(self, world: FakeWorld, robot: FakeRobot, camera: Camera) -> None:
-        """Serve this robot."""
+        """Use this robot of the world."""
         self.world = world
         self._robot = robot
         self.camera = camera
@@ -178,18 +178,18 @@ class FakeBody:
         self.draws_beside = False
 
     def start(self, goal: AnyGoal) -> int:
-        """Pursue a goal; no head can be turned here but to a place, and there is no arm to move."""
+        """Pursue a goal; there are no goals for arm and hand here, and the head looks at places."""
         assert not isinstance(goal, Face | MoveHand | MoveJoints | Grip)
         return self._robot.start(goal)
 
     @property
     def busy(self) -> bool:
-        """While anything is due."""
+        """Whether any effect of a goal is still due."""
         return self.world.busy
 
     @property
     def moves(self) -> bool:
-        """While it drives."""
+        """Whether it drives."""
         return self.world.drive is not None
 
     @property
@@ -198,36 +198,36 @@ class FakeBody:
         return False
 
     def look(self, point: Vector3) -> Goal:
-        """At the floor, or at the place where it stands, whatever the point."""
+        """The goal to look at the floor, or else at the place where the robot stands."""
         return LookAt(FLOOR if point[2] < ON_THE_FLOOR_M else self.world.at or FLOOR)
 
     @property
     def pose(self) -> PlanarPose:
-        """Where its drive has led so far."""
+        """The pose, interpolated along the current drive."""
         drive = self.world.drive
         return drive.at(self.world.time) if drive else self.world.pose
 
     @property
     def velocity(self) -> PlanarPose:
-        """Nominal."""
+        """The nominal speed while it drives."""
         return SPEED_M_S if self.world.drive else 0.0, 0.0, 0.0
 
     @property
     def holding(self) -> bool:
-        """Whether it has a thing."""
+        """Whether it holds an object."""
         return self._robot.holding
 
     @property
     def gap(self) -> float:
-        """It has no fingers."""
+        """Zero: it has no fingers."""
         return 0.0
 
     def joints(self) -> Joints:
-        """It has none that move."""
+        """Empty: it has no joints."""
         return {}
 
     def frames(self) -> tuple[Transform, ...]:
-        """The camera looks down from above the base."""
+        """The base, and a camera above it that looks down."""
         x, y, yaw = self.pose
         turn = heading(yaw)
         eye = Pose((0.0, 0.0, EYE_HEIGHT_M), (math.cos(yaw / 2), -math.sin(yaw / 2), 0.0, 0.0))
@@ -238,7 +238,7 @@ class FakeBody:
 
 
 def drive(home: Home, pose: PlanarPose) -> DriveTo | GoTo:
-    """The goal of one who wants to be at a pose: the place that is used from there, if there is."""
+    """The goal to drive to a pose in `map`, or to the place that is used from there, if any."""
     places = (PERSON, home.delivery.name, *(piece.name for piece in home.furniture))
     for place in places:
         x, y, yaw = home.stand(place)

@@ -1,4 +1,4 @@
-"""`python -m sim serve`: the simulated robot, for whoever drives it from outside."""
+"""`python -m sim serve`: the simulated robot for clients over the network."""
 
 import argparse
 from contextlib import suppress
@@ -46,7 +46,7 @@ def add_serving(commands: "argparse._SubParsersAction[Any]") -> None:
 
 
 def _serve(options: argparse.Namespace) -> int:
-    from sim.home.home_file import load_home  # all of this takes long, and is not for help
+    from sim.home.home_file import load_home  # slow to import, and not needed for --help
     from sim.home.validation import with_placement
     from sim.served.serving import Plan, build
 
@@ -82,5 +82,5 @@ def _serve(options: argparse.Namespace) -> int:
 
 
 def _tell(text: str) -> None:
-    with suppress(BrokenPipeError):  # nobody reads any more: whoever drives the robot still does
+    with suppress(BrokenPipeError):  # nobody reads stdout any more; clients still use the robot
         print(printable(text), flush=True)

@@ -1,6 +1,6 @@
-"""What a robot publishes, as ROS messages: plain tables by the fields' names.
+"""Builds the ROS messages that the robot publishes, as dictionaries with the fields' names.
 
-Stamps are of the robot's own clock (nanoseconds); frames and units are those of REP-103 and 105.
+Timestamps are of the robot's clock (nanoseconds); frames and units follow REP-103 and REP-105.
 """
 
 from collections.abc import Iterable, Mapping
@@ -48,14 +48,14 @@ def text(said: str) -> Message:
 
 
 def planar_pose(pose: Planar) -> Message:
-    """`geometry_msgs/msg/Pose` on the floor."""
+    """`geometry_msgs/msg/Pose`, with z = 0."""
     x, y, yaw = pose
     turn = heading(yaw)
     return {"position": _vector((x, y, 0.0)), "orientation": _quaternion(turn)}
 
 
 def odometry(time_ns: int, pose: Planar, velocity: Planar) -> Message:
-    """`nav_msgs/msg/Odometry`: the twist is in the base's own frame."""
+    """`nav_msgs/msg/Odometry`; `velocity` is in the base's frame, as the twist is."""
     ahead, left, turn = velocity
     twist = {"linear": _vector((ahead, left, 0.0)), "angular": _vector((0.0, 0.0, turn))}
     return {
@@ -78,7 +78,7 @@ def joint_states(time_ns: int, joints: Mapping[str, tuple[float, float]]) -> Mes
 
 
 def transforms(time_ns: int, moved: Iterable[Transform]) -> Message:
-    """`tf2_msgs/msg/TFMessage`; what stands in the map stands in the frame of the odometry."""
+    """`tf2_msgs/msg/TFMessage`; the parent `map` becomes `odom`, which is the same frame here."""
     return {
         "transforms": [
             {
@@ -92,7 +92,7 @@ def transforms(time_ns: int, moved: Iterable[Transform]) -> Message:
 
 
 def fixed_transforms() -> Message:
-    """`tf2_msgs/msg/TFMessage`: the odometry of a simulated robot does not drift."""
+    """`tf2_msgs/msg/TFMessage` with `odom` in `map`: the simulated odometry does not drift."""
     return {
         "transforms": [
             {
@@ -110,12 +110,12 @@ def color_image(time_ns: int, frame: Frame) -> Message:
 
 
 def depth_image(time_ns: int, frame: Frame) -> Message:
-    """`sensor_msgs/msg/Image`, 32FC1: metres, infinite where nothing is."""
+    """`sensor_msgs/msg/Image`, 32FC1: metres, infinite for background."""
     return _image(time_ns, frame.intrinsics, "32FC1", frame.depth.astype("<f4", copy=False))
 
 
 def camera_info(time_ns: int, lens: Intrinsics) -> Message:
-    """`sensor_msgs/msg/CameraInfo` of a pinhole without distortion."""
+    """`sensor_msgs/msg/CameraInfo` of a pinhole camera without distortion."""
     fx, fy, cx, cy = lens.fx, lens.fy, lens.cx, lens.cy
     none = {"x_offset": 0, "y_offset": 0, "height": 0, "width": 0, "do_rectify": False}
     return {

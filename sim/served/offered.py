@@ -1,4 +1,4 @@
-"""What the served robot is called over the wire: its topics and actions, and their types."""
+"""The ROS interface of the served robot: names and types of its topics and actions."""
 
 from dataclasses import replace
 
@@ -16,14 +16,14 @@ COLOR, DEPTH = "/camera/color/image_raw", "/camera/depth/image_raw"
 LENS = "/camera/color/camera_info"
 PICTURES = (COLOR, DEPTH, LENS)
 STATE = (CLOCK, TF_STATIC, TF, ODOMETRY, JOINTS, TOUCH)
-"""In the order in which they are published, before the pictures."""
+"""Topics of the robot's state, in the order of publishing; pictures come after them."""
 
 DRIVE = "/navigate_to_pose"
 LOOK = "/head_controller/point_head_action"
 PICK, PLACE = "/pick", "/place"
 ARM, GRIPPER = "/move_action", "/gripper_controller/gripper_cmd"
 GROUP, TIP = "arm", "panda_grasptarget"
-"""MoveIt's names of what moves, and of the point between the fingers."""
+"""MoveIt's planning group, and the link at the point between the fingers."""
 SRDF = f"""<robot name="panda">
   <group name="{GROUP}"><chain base_link="base_link" tip_link="{TIP}"/></group>
 </robot>"""
@@ -49,7 +49,7 @@ GRAPH = Graph(
         PLACE: "executive_msgs/action/Place",
     },
 )
-"""A robot that picks up and puts down by itself."""
+"""The interface of a robot with actions to pick up and put down."""
 
 _MOVING = {name: kind for name, kind in GRAPH.actions.items() if name not in (PICK, PLACE)}
 MOTIONS = replace(
@@ -61,4 +61,4 @@ MOTIONS = replace(
         GRIPPER: "control_msgs/action/GripperCommand",
     },
 )
-"""The same robot, whose arm and fingers only move: what it takes, and how, is told from outside."""
+"""The interface of the same robot with MoveIt's motions and a gripper: the client plans grasps."""

@@ -1,8 +1,8 @@
-"""What is served unless the command says otherwise."""
+"""Options of `python -m sim serve`, and their defaults."""
 
 PORT = 9090
-"""Rosbridge's own."""
+"""The default port of rosbridge."""
 FASTEST = 50.0
-"""So many seconds pass in a real one at most."""
+"""Default of the highest ratio of simulated time to real time."""
 SKILLS, MOVEIT = "skills", "moveit"
-"""What the arm offers: to pick up and to put down, or motions as MoveIt 2 has them."""
+"""What the arm offers: actions to pick up and put down, or the motions of MoveIt 2."""

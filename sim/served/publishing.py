@@ -1,4 +1,4 @@
-"""Tells what the robot knows of itself and sees, to whoever wants it."""
+"""Publishes the robot's state and pictures on the topics that have subscribers."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ Order = Callable[[], None]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Shot:
-    """A picture, and when it was taken (ns)."""
+    """A frame, and the time when it was taken (ns)."""
 
     frame: Frame
     time_ns: int
@@ -29,9 +29,10 @@ class _Shot:
 
 
 class Publisher:
-    """Publishes what is wanted. Belongs to the thread of the simulation.
+    """Publishes topics with subscribers. Use it only on the simulation's thread.
 
-    Nobody waits for a picture that another process draws: it is published when it is there.
+    It does not wait for a picture that another process draws: a callback publishes it when it is
+    drawn.
     """
 
     def __init__(
@@ -41,13 +42,13 @@ class Publisher:
         now_ns: Callable[[], int],
         later: Callable[[Order], None],
     ) -> None:
-        """Nobody wants anything yet.
+        """Begin without subscribers.
 
         Args:
-            body: whose state and pictures are told.
-            publish: tells them.
-            now_ns: the robot's time.
-            later: has something done on the thread of the simulation; from any thread.
+            body: the robot.
+            publish: sends a message on a topic.
+            now_ns: returns the simulated time (ns).
+            later: queues an order for the simulation's thread; callable from any thread.
         """
         self._body = body
         self._publish = publish
@@ -59,7 +60,7 @@ class Publisher:
         self._drawing: list[_Shot] = []
 
     def want(self, topic: str) -> None:
-        """Publish this topic from now on, and once now; a picture with what belongs to it."""
+        """Publish a topic once now and from now on; a picture's topic with the state before it."""
         self._wanted.add(topic)
         if topic in PICTURES:
             self._takes_pictures = True
@@ -67,38 +68,38 @@ class Publisher:
         self._tell((topic,))
 
     def leave_out(self, topic: str) -> None:
-        """Nobody wants it any more."""
+        """Stop publishing a topic."""
         self._wanted.discard(topic)
 
     def forget_picture(self) -> None:
-        """Something may have changed: what is seen next is a new picture."""
+        """The scene may have changed: take a new picture next time."""
         self._newest = None
 
     def expect_picture(self) -> None:
-        """A picture of now will be wanted soon, if any ever were: it is drawn if that is free."""
+        """Start drawing a picture now if clients use pictures, and it costs no waiting."""
         if self._takes_pictures and self._body.draws_beside and not self.is_drawing:
             self._picture()
 
     def tell_time(self) -> None:
-        """Only the clock."""
+        """Publish the clock."""
         self._tell((CLOCK,))
 
     def tell_state(self) -> None:
-        """All but the pictures."""
+        """Publish the state, without pictures."""
         self._tell(STATE)
 
     def tell_pictures(self) -> None:
-        """What the camera sees now."""
+        """Publish what the camera sees now."""
         self._tell(PICTURES)
 
     @property
     def shows_pictures(self) -> bool:
-        """Whether anybody wants them."""
+        """Whether a picture topic has subscribers."""
         return not self._wanted.isdisjoint(PICTURES)
 
     @property
     def is_drawing(self) -> bool:
-        """Whether a picture is still drawn."""
+        """Whether a picture is still being drawn."""
         self._drawing = [shot for shot in self._drawing if not shot.is_drawn]
         return bool(self._drawing)
 
@@ -132,14 +133,14 @@ class Publisher:
     # --- pictures ---
 
     def _picture(self) -> _Shot:
-        """One for all topics, as long as nothing changes."""
+        """The newest picture; all topics share it until `forget_picture`."""
         if self._newest is None:
             self._newest = _Shot(self._body.camera.capture(), self._now_ns())
             self._drawing.append(self._newest)
         return self._newest
 
     def _show(self, topic: str, shot: _Shot) -> None:
-        """Publish it when it is drawn."""
+        """Publish a picture, when it is drawn."""
         frame = shot.frame
         if isinstance(frame, ComingFrame) and not frame.is_drawn:
             frame.when_drawn(partial(self._later, partial(self._show_drawn, topic, shot)))
@@ -157,7 +158,7 @@ class Publisher:
             self._publish(topic, message)
 
     def _take_another(self, topic: str, shot: _Shot) -> None:
-        """The process that draws is gone: this one takes a picture of now."""
+        """The drawing process has failed: draw a new picture in this process."""
         if self._newest is shot:
             self._newest = None
         self.tell_state()

@@ -1,7 +1,7 @@
-"""The goals that clients have given the robot, and what becomes of each.
+"""The action goals of clients: starts, cancels and ends them, and sends feedback and results.
 
-The robot pursues one at a time: a new one, of whichever action, replaces the one before. One that
-is cancelled ends when all is at rest.
+The robot pursues one goal at a time: a new goal of any action replaces the one before. A cancelled
+goal ends when the robot is at rest.
 """
 
 import math
@@ -26,9 +26,9 @@ from sim.served.requests import Reader
 FAILED = 1
 """`error_code` of a goal that was not reached."""
 ERROR_CODES = {NO_MOTION: NO_PLAN, UNREACHABLE: NO_IK}
-"""MoveIt's, of what the arm says."""
+"""MoveIt's error codes, by the reasons of failed arm motions."""
 THIN_M = 0.002
-"""So near to where they are sent, the fingers are there."""
+"""Goal tolerance of the fingers' gap."""
 
 
 @dataclass(eq=False)
@@ -40,19 +40,27 @@ class _Pursuit:
 
 @dataclass(eq=False)
 class _Halting:
-    """The robot comes to rest for goals that were cancelled."""
+    """A request to come to rest, and the cancelled goals that end with it."""
 
     request: int
     goals: list[Goal] = field(default_factory=list)
 
 
 class Pursuits:
-    """Belongs to the thread of the simulation."""
+    """The open goals of clients. Use it only on the simulation's thread."""
 
     def __init__(
         self, home: Home, body: Body, inbox: Inbox, server: Server, tell_state: Callable[[], None]
     ) -> None:
-        """Pursue nothing. How the robot is, is told by `tell_state` before each end."""
+        """Begin without goals.
+
+        Args:
+            home: the robot's home.
+            body: the robot.
+            inbox: receives the results of its goals.
+            server: sends feedback and results to clients.
+            tell_state: publishes the robot's state; called before each result is sent.
+        """
         self._home = home
         self._body = body
         self._inbox = inbox
@@ -71,7 +79,7 @@ class Pursuits:
         self._halting: _Halting | None = None
 
     def start(self, goal: Goal, time_ns: int) -> None:
-        """Pursue it, or refuse it if that cannot be tried."""
+        """Pursue a goal, or refuse it if it is invalid."""
         try:
             wanted = self._readers[goal.action](goal.args)
         except PacketError as error:
@@ -84,7 +92,7 @@ class Pursuits:
         self.tell_progress(time_ns)
 
     def cancel(self, goal: Goal) -> None:
-        """Give it up and come to rest."""
+        """Cancel a goal, and bring the robot to rest."""
         for request, pursuit in tuple(self._open.items()):
             if pursuit.goal is goal:
                 self._body.cancel(request)
@@ -94,12 +102,12 @@ class Pursuits:
                 self._halting.goals.append(goal)
 
     def settle(self) -> None:
-        """Come to rest, if nothing is pursued: a look may end before the head is still."""
+        """Bring the robot to rest if it is idle: a look may end before the head is still."""
         if not self._body.busy and self._body.moves:
             self._halting = _Halting(self._body.start(Halt()))
 
     def take_ends(self) -> bool:
-        """Tell of each that has ended; whether one of them was a look."""
+        """Send the results of goals that have ended; return whether one of them was a look."""
         looked = False
         for event in self._inbox.take_all():
             if isinstance(event, Ended):
@@ -109,7 +117,7 @@ class Pursuits:
         return looked
 
     def tell_progress(self, time_ns: int) -> None:
-        """Tell how the robot gets on with what it pursues."""
+        """Send feedback for all open goals."""
         for pursuit in self._open.values():
             self._server.feedback(pursuit.goal, self._feedback(pursuit, time_ns))
 
@@ -145,7 +153,7 @@ class Pursuits:
         }
 
     def _values(self, goal: Goal, result: Result) -> Message:
-        """The result of its action."""
+        """The result message of a goal's action."""
         failed = result if isinstance(result, Failed) else None
         if goal.action == GRIPPER:
             return self._grip(goal)
@@ -159,7 +167,7 @@ class Pursuits:
         return error
 
     def _grip(self, goal: Goal) -> Message:
-        """As a gripper tells it: something that keeps it from closing has it stall."""
+        """The result of `GripperCommand`: the gripper has stalled if it is not at its goal."""
         gap, wanted = self._body.gap, goal.args["command"]
         reached = abs(gap - wanted["position"]) < THIN_M
         return {

@@ -1,6 +1,6 @@
-"""What clients ask of the robot, read from the goals of its actions.
+"""Reads the goals of ROS actions into goals of the simulated robot.
 
-Whatever does not fit is a `PacketError` in words, and the goal is refused.
+An invalid goal raises `PacketError` with the reason, and is refused.
 """
 
 import math
@@ -25,32 +25,39 @@ from sim.served.messages import MAP
 from sim.served.offered import GROUP, TIP
 
 FARTHEST_M = 1000.0
-"""No coordinate is farther from the map's origin."""
+"""Greatest absolute value of a coordinate, or any other number."""
 MOST_POINTS = 1_000_000
 MOST_TEXT = 200
 MOST_JOINTS = 100
 STRAIGHT = "LIN"
-"""MoveIt's name of its straight planner."""
+"""`planner_id` of MoveIt's planner for straight lines."""
 BASE = "base_link"
 WIDEST_M, STRONGEST_N, WIDEST_LOAD_M = 0.08, 70.0, 1.0
-"""Of the hand, and of what it can carry."""
+"""Limits of the fingers' gap, of their force, and of the size of a load."""
 BOX = 1
-"""`shape_msgs/msg/SolidPrimitive`'s type."""
+"""Type of a box in `shape_msgs/msg/SolidPrimitive`."""
 _FIELDS = ("x", "y", "z")
 _FLOAT32 = 7
-"""`sensor_msgs/msg/PointField`'s datatype."""
+"""Datatype in `sensor_msgs/msg/PointField`."""
 
 
 @dataclass(frozen=True)
 class Reader:
-    """Makes goals of the robot from goals of actions."""
+    """Converts goals of actions to goals of the robot.
+
+    All methods raise PacketError if the goal is invalid.
+
+    Attributes:
+        home: the robot's home.
+        look: returns the goal to look at a point of `map`.
+    """
 
     home: Home
     look: Callable[[Vector3], Goal | Face]
 
     @classmethod
     def of(cls, home: Home, body: Body) -> "Reader":
-        """For this robot in this home."""
+        """The reader for a robot in its home."""
         return cls(home, body.look)
 
     def drive(self, goal: Message) -> Goal | GoTo:
@@ -68,7 +75,7 @@ class Reader:
         return self.look(_vector(_table(target, "point")))
 
     def pick(self, goal: Message) -> Goal:
-        """`executive_msgs/action/Pick`: a name, and the points in `map` that were seen of it."""
+        """`executive_msgs/action/Pick`: the object's name, and its visible points in `map`."""
         label, cloud = _text(goal, "label"), _table(goal, "points")
         if cloud.get("width", 0):
             _in_frame(cloud)
@@ -82,10 +89,10 @@ class Reader:
         return PutDown(_text(goal, "place"))
 
     def move(self, goal: Message) -> MoveHand | MoveJoints:
-        """`moveit_msgs/action/MoveGroup`: the tip to a pose in the base, or joints to positions.
+        """`moveit_msgs/action/MoveGroup`: the tip to a pose in `base_link`, or joint positions.
 
-        Of what the goal adds to the planning scene, what is attached to the tip is heeded; what
-        stands around is not: the simulated planner has the map.
+        Of the goal's additions to the planning scene, only objects attached to the tip are used.
+        Other collision objects are ignored: the simulated planner has the map.
         """
         request, load = _table(goal, "request"), _load(goal)
         if request.get("group_name") != GROUP:
@@ -110,7 +117,7 @@ class Reader:
         return MoveHand(pose, speed, request.get("planner_id") == STRAIGHT, load)
 
     def grip(self, goal: Message) -> Grip:
-        """`control_msgs/action/GripperCommand`: position is the gap between the fingers."""
+        """`control_msgs/action/GripperCommand`: `position` is the gap between the fingers (m)."""
         command = _table(goal, "command")
         gap, force = _number(command, "position"), _number(command, "max_effort", 0.0)
         if not 0 <= gap <= WIDEST_M:
@@ -122,7 +129,7 @@ class Reader:
 
 
 def _first(message: Message, name: str) -> Message:
-    """The only one of a list."""
+    """The only element of a list."""
     value = message.get(name)
     if not isinstance(value, list) or len(value) != 1 or not isinstance(value[0], dict):
         raise PacketError(f"a goal that has not one of {name}")
@@ -130,7 +137,7 @@ def _first(message: Message, name: str) -> Message:
 
 
 def _load(goal: Message) -> tuple[Shape, ...]:
-    """The boxes that are attached to the tip."""
+    """The box that is attached to the tip, if any, in the tip's frame."""
     state: Any = goal.get("planning_options")
     for name in ("planning_scene_diff", "robot_state"):
         state = state.get(name) if isinstance(state, dict) else None
@@ -193,20 +200,23 @@ def _vector(message: Message) -> Vector3:
 
 
 def _yaw(message: Message) -> float:
-    """Of a quaternion about the vertical (radians)."""
+    """The yaw of a quaternion (radians)."""
     x, y, z, w = _quaternion(message)
     return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
 
 
 def _in_frame(stamped: Message, name: str = MAP) -> None:
-    """What the robot is told is told in one frame."""
+    """Check that a message is in the frame `name`."""
     frame = _table(stamped, "header").get("frame_id")
     if frame != name:
         raise PacketError(f"a goal in the frame {str(frame)[:MOST_TEXT]}: give it in {name}")
 
 
 def _points(cloud: Message) -> NDArray[np.float32]:
-    """(n, 3) of a `sensor_msgs/msg/PointCloud2` with x, y and z as 32-bit floats (metres)."""
+    """The finite points (n, 3) of a `sensor_msgs/msg/PointCloud2` (metres).
+
+    Its fields x, y and z must be 32-bit floats.
+    """
     count = _count(cloud, "width", 0) * _count(cloud, "height", 1)
     if not count:
         return np.empty((0, 3), np.float32)
@@ -231,7 +241,7 @@ def _points(cloud: Message) -> NDArray[np.float32]:
 
 
 def _offset(cloud: Message, name: str, step: int) -> int:
-    """Where a coordinate begins in each point."""
+    """The offset of a coordinate in the bytes of a point."""
     fields = cloud.get("fields")
     for field in fields if isinstance(fields, list) else ():
         if isinstance(field, dict) and field.get("name") == name:

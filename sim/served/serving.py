@@ -1,4 +1,4 @@
-"""Puts a served robot together: its world, its faults, its door."""
+"""Builds a served robot: its world, its faults and its server."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -20,17 +20,17 @@ from sim.served.simulation import Simulation
 
 @dataclass(frozen=True)
 class Plan:
-    """What is to be served.
+    """The settings of a served robot.
 
     Attributes:
-        home: where the robot is.
+        home: the robot's home.
         world: `physics`, or `fake` for the instant world.
         arm: `skills`, or, in physics, `moveit`.
-        faults: what goes wrong, as `--fault` has it; times are the robot's.
+        faults: injected faults in the syntax of `--fault`, in simulated time.
         seed: of the world and of the faults.
-        port: to listen on; 0: any that is free.
-        speed: how many seconds may pass in a real one.
-        gui: whether PyBullet shows its own window.
+        port: TCP port to listen on; 0 for any that is free.
+        speed: highest ratio of simulated time to real time.
+        gui: whether to show PyBullet's window.
     """
 
     home: Home
@@ -43,29 +43,29 @@ class Plan:
     gui: bool = False
 
 
-class _Teller:
-    """A Recorder that tells of the faults that strike, and keeps nothing."""
+class _FaultReporter:
+    """A Recorder that reports the faults that occur, and records nothing."""
 
     def __init__(self, tell: Callable[[str], None]) -> None:
         self._tell = tell
 
     def record(self, record: Record) -> None:
-        """Tell a mishap."""
+        """Report a mishap; ignore all other records."""
         if isinstance(record, Mishap):
             self._tell(f"{record.fault}: {record.text}")
 
 
 def build(plan: Plan, tell: Callable[[str], None] = lambda text: None) -> Simulation:
-    """The robot, ready to be served; `tell` is told each fault that strikes.
+    """Build the robot and its server; `tell` is called with each fault that occurs.
 
     Raises:
-        InputError: if a fault is none, or not of this world, or not of a robot.
+        InputError: if a fault is invalid, not available in this world, or of the detector.
     """
     faults = parse_faults(plan.faults, plan.home)
-    _refuse_the_detectors(faults)
+    _refuse_detector_faults(faults)
     if plan.world == "fake":
         refuse_physical(faults)
-    inbox, recorder = Inbox(), _Teller(tell)
+    inbox, recorder = Inbox(), _FaultReporter(tell)
     injector = None
     if faults:
         injector = FaultInjector(faults, recorder, lambda: simulation.now, plan.seed)
@@ -77,7 +77,9 @@ def build(plan: Plan, tell: Callable[[str], None] = lambda text: None) -> Simula
     return simulation
 
 
-def _fake(plan: Plan, inbox: Inbox, recorder: _Teller, injector: FaultInjector | None) -> Body:
+def _fake(
+    plan: Plan, inbox: Inbox, recorder: _FaultReporter, injector: FaultInjector | None
+) -> Body:
     world = FakeWorld(plan.home, inbox, recorder)
     robot, camera = FakeRobot(world), FakeCamera(world)
     if injector is None:
@@ -86,8 +88,10 @@ def _fake(plan: Plan, inbox: Inbox, recorder: _Teller, injector: FaultInjector |
     return FakeBody(world, FaultyFakeRobot(world, injector), spoilt)
 
 
-def _physics(plan: Plan, inbox: Inbox, recorder: _Teller, injector: FaultInjector | None) -> Body:
-    from sim.pictures.beside import worthwhile  # takes long, and the instant world does without
+def _physics(
+    plan: Plan, inbox: Inbox, recorder: _FaultReporter, injector: FaultInjector | None
+) -> Body:
+    from sim.pictures.beside import worthwhile  # slow to import, and not for the instant world
     from sim.world import PhysicsWorld
 
     world = PhysicsWorld(
@@ -104,8 +108,12 @@ def _physics(plan: Plan, inbox: Inbox, recorder: _Teller, injector: FaultInjecto
     return PhysicsBody(world)
 
 
-def _refuse_the_detectors(faults: Sequence[Fault]) -> None:
-    """What is recognised in pictures is the client's matter."""
+def _refuse_detector_faults(faults: Sequence[Fault]) -> None:
+    """Refuse faults of the detector: it runs in the client.
+
+    Raises:
+        InputError: for the first of them.
+    """
     for fault in faults:
         if isinstance(fault, Miss | Confuse):
             what = "a served robot gives pictures, and what is in them is seen by who gets them"

@@ -1,8 +1,8 @@
-"""The simulated robot behind the server, and its time.
+"""The simulated robot behind the server, and its clock.
 
-Time passes while the robot acts, as fast as can be up to a given speed; while it plans, and while
-nothing is under way, it stands still. So whoever drives it from outside has it do the same things
-at the same times as one who drives it in the same process.
+Simulated time passes only while the robot acts, as fast as the CPU allows up to a given speed. It
+stands still while the robot plans, and while the robot is idle. So a client over the network gets
+the same actions at the same simulated times as one in the same process.
 """
 
 import queue
@@ -21,31 +21,31 @@ from sim.served.publishing import Order, Publisher
 from sim.served.pursuits import Pursuits
 
 STEP_S = 0.05
-"""The longest that passes unseen (simulated seconds); so often the clock is told."""
+"""Longest step, and period of the clock's messages (simulated seconds)."""
 STATE_S, PROGRESS_S, HEARTBEAT_S = 1 / 30, 0.2, 0.5
-"""How often (real seconds) the robot's state is told, how a goal gets on, and, while nothing is
-under way, that all is as it was."""
+"""Periods (real seconds) of the robot's state, of goals' feedback, and of the state of an idle
+robot."""
 PICTURES_S = 0.2
-"""And pictures, to who wants to see one after the other (real seconds)."""
+"""Period of pictures while the robot acts (real seconds)."""
 PLANNING_S = 0.005
-"""While something is computed, orders are looked for this often (real seconds)."""
+"""While the robot computes, orders are checked this often (real seconds)."""
 
 
 class Simulation:
-    """Implements Backend. `run` is the thread of the simulation; the server has its own."""
+    """Implements Backend. `run` is the loop of the simulation's thread; the server has its own."""
 
     def __init__(
         self, home: Home, body: Body, graph: Graph, inbox: Inbox, port: int, speed: float
     ) -> None:
-        """Make all ready; `run` begins.
+        """Prepare everything; `run` starts the simulation.
 
         Args:
-            home: where the robot is.
-            body: it.
-            graph: what it offers, and what that is called.
-            inbox: where the ends of what it does go.
-            port: to listen on; 0: any that is free.
-            speed: how many seconds may pass in a real one.
+            home: the robot's home.
+            body: the robot.
+            graph: its topics and actions.
+            inbox: receives the results of the robot's goals.
+            port: TCP port to listen on; 0 for any that is free.
+            speed: highest ratio of simulated time to real time.
         """
         self.body = body
         self.graph = graph
@@ -66,34 +66,34 @@ class Simulation:
     # --- for the server, on its thread ---
 
     def time(self) -> Message:
-        """What the clock shows."""
+        """The current simulated time, as a message."""
         return time_message(self._now_ns)
 
     def want(self, topic: str) -> None:
-        """Somebody is new to a topic."""
+        """A client has subscribed to a topic."""
         self._orders.put(partial(self._publisher.want, topic))
 
     def leave_out(self, topic: str) -> None:
-        """Nobody wants it any more."""
+        """The last client has unsubscribed from a topic."""
         self._orders.put(partial(self._publisher.leave_out, topic))
 
     def start(self, goal: Goal) -> None:
-        """Pursue a goal."""
+        """A client has sent a goal."""
         self._orders.put(partial(self._start, goal))
 
     def cancel(self, goal: Goal) -> None:
-        """Give it up."""
+        """A client has cancelled a goal."""
         self._orders.put(partial(self._cancel, goal))
 
     def settle(self) -> None:
-        """Come to rest, if nothing is pursued."""
+        """Bring the robot to rest if it pursues no goal."""
         self._orders.put(self._pursuits.settle)
 
     # --- the simulation ---
 
     @property
     def now(self) -> float:
-        """The robot's time (s)."""
+        """The simulated time (s)."""
         return self._time
 
     def stop(self) -> None:
@@ -101,7 +101,7 @@ class Simulation:
         self._orders.put(self._stop)
 
     def run(self) -> None:
-        """Go on until `stop`."""
+        """Run the simulation until `stop`."""
         while not self._over:
             if not self.body.busy:
                 self._wait()
@@ -113,7 +113,7 @@ class Simulation:
                 self._go_on()
 
     def close(self) -> None:
-        """Let everybody go, and free the world."""
+        """Disconnect all clients, and close the world."""
         self.server.close()
         self.body.close()
 
@@ -122,7 +122,7 @@ class Simulation:
         return round(self._time * 1e9)
 
     def _wait(self) -> None:
-        """Nothing is under way: sleep until somebody wants something."""
+        """The robot is idle: sleep until there is an order, or the heartbeat is due."""
         self._pace.rest()
         self._obey(self._heartbeat_due.left)
         if self._heartbeat_due.is_now:
@@ -138,7 +138,7 @@ class Simulation:
             self._publisher.tell_time()
 
     def _go_on(self) -> None:
-        """Tell what has come of it, and hear what is wanted meanwhile."""
+        """Publish what is due, and carry out new orders."""
         if self._pursuits.take_ends():
             self._publisher.expect_picture()
         if self._state_due.is_now:
@@ -149,13 +149,13 @@ class Simulation:
         self._obey(self._pace.left if self.body.busy and not self.body.computing else 0.0)
 
     def _show_pictures(self) -> None:
-        """Now and then to who watches, and one of how it is at rest."""
+        """Publish pictures if they are due, and when the robot has come to rest."""
         due = self._pictures_due.is_now and not self._publisher.is_drawing
         if self._publisher.shows_pictures and (due or not self.body.busy):
             self._publisher.tell_pictures()
 
     def _obey(self, seconds: float) -> None:
-        """Do all that is wanted; wait for the first so long (real seconds)."""
+        """Carry out all waiting orders; wait at most `seconds` (real time) for the first."""
         try:
             order = self._orders.get(timeout=seconds) if seconds > 0 else self._orders.get_nowait()
             while True:
@@ -177,7 +177,7 @@ class Simulation:
 
 
 class _Due:
-    """Something that is done every so many real seconds."""
+    """A timer for something periodic (real time)."""
 
     def __init__(self, every_s: float) -> None:
         self._every_s = every_s
@@ -185,12 +185,12 @@ class _Due:
 
     @property
     def left(self) -> float:
-        """Until it is due (real seconds)."""
+        """The time until it is due (real seconds)."""
         return max(0.0, self._next - time.monotonic())
 
     @property
     def is_now(self) -> bool:
-        """Whether it is due; if so, the next time begins."""
+        """Whether it is due; if so, the next period begins."""
         now = time.monotonic()
         if now < self._next:
             return False
@@ -199,21 +199,21 @@ class _Due:
 
 
 class _Pace:
-    """Holds simulated time back to a speed, from whenever the robot begins to act."""
+    """Limits the speed of simulated time, measured from when the robot began to act."""
 
     def __init__(self, speed: float) -> None:
         self._speed = speed
         self.rest()
 
     def rest(self) -> None:
-        """Nothing passes now."""
+        """The robot is idle: measure from now."""
         self._began, self._passed = time.monotonic(), 0.0
 
     def passed(self, seconds: float) -> None:
-        """So many simulated seconds passed."""
+        """Add simulated seconds that have passed."""
         self._passed += seconds
 
     @property
     def left(self) -> float:
-        """How long time has to wait now (real seconds)."""
+        """How long to wait before more time may pass (real seconds); negative if none."""
         return self._began + self._passed / self._speed - time.monotonic()
