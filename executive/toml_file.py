@@ -32,11 +32,21 @@ _SHOWN = 60
 """So many characters of a key that is wrong are told."""
 _MOST_SHOWN = 80
 """Likewise of a value."""
+_TOMLS = {
+    "tuple": "list",
+    " after validation": "",
+    "value error, ": "",
+    "field required": "is missing",
+    "extra inputs are not permitted": "is no key",
+    "not a valid path for <class 'pathlib.path'>": "no name of a file",
+}
+"""What pydantic says, in lower case, and what somebody who wrote a file is told instead."""
 _PYTHONS = re.compile(
-    r"\btuple\b|\bdictionary( or instance of \w+)?\b| after validation|Value error, ", re.IGNORECASE
+    r"\bdictionary( or instance of \w+)?\b|\btuple\b| after validation|Value error, "
+    r"|Field required|Extra inputs are not permitted|not a valid path for <class 'pathlib\.Path'>",
+    re.IGNORECASE,
 )
 _BOOL = "should be true or false"
-_TOMLS = {"tuple": "list", " after validation": "", "value error, ": ""}
 
 
 def read_toml(path: Path, right: str = "") -> dict[str, Any]:

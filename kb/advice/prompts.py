@@ -10,7 +10,7 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo, field_validator
 
 from executive.errors import InputError
-from executive.toml_file import read_toml
+from executive.toml_file import in_words, read_toml
 from executive.types.commands import SEARCHING, CommandKind
 from executive.types.home import Place
 from executive.types.llm import Message
@@ -144,7 +144,7 @@ class Prompts(_Part):
             fault = error.errors()[0]
             where = ".".join(map(str, fault["loc"]))
             known = f"known are {', '.join(texts)}" if fault["type"] == "extra_forbidden" else ""
-            raise InputError(f"{path}: {where}", fault["msg"], known) from None
+            raise InputError(f"{path}: {where}", in_words(fault["msg"]), known) from None
 
     def inquiry(self, label: str, **values: str) -> str:
         """The text with this label; placeholders are given with underscores: `object_name`."""

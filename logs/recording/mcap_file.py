@@ -68,7 +68,8 @@ def is_whole(path: Path) -> bool:
     try:
         with path.open("rb") as file:
             if file.read(len(MAGIC)) != MAGIC:
-                raise InputError(str(path), "is not an mcap file", "the magic number is missing")
+                what = "is not an mcap file: it does not begin as one"
+                raise InputError(str(path), what, "name a run's folder or its mission.mcap")
             size = file.seek(0, 2)
             file.seek(max(0, size - _FOOTER_BYTES - len(MAGIC)))
             end = file.read()

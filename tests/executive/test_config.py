@@ -51,6 +51,7 @@ def test_one_of_what_is_repeatable_needs_no_list(tmp_path: Path) -> None:
         ('llm = "gpt"', "my.toml: llm: .*FILE.gguf or http"),
         ('llm = "http://"', "my.toml: llm: should be an address such as http://host:port/v1"),
         ('robot = "ws://"', "my.toml: robot: should be an address such as ws://HOST:PORT"),
+        ("kb = [1]", "my.toml: kb.0: Input is no name of a file"),
         ('runs = ""', "my.toml: runs: is empty: name one, or leave it out"),
         ('home = " "', "my.toml: home: is empty: name one, or leave it out"),
         ('knowledge = "all"', "my.toml: knowledge: .*'okb', 'okb.llm'"),

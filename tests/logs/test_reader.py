@@ -219,7 +219,7 @@ def test_a_folder_without_a_recording_is_refused(tmp_path: Path) -> None:
 
 def test_a_file_that_is_no_mcap_is_refused(tmp_path: Path) -> None:
     (tmp_path / "mission.mcap").write_bytes(b"hello, hello, hello")
-    with pytest.raises(InputError, match="is not an mcap file"):
+    with pytest.raises(InputError, match="is not an mcap file: .*; name a run's folder"):
         Run(tmp_path)
 
 

@@ -18,7 +18,7 @@ from sim.home.arrangement import Spot
 from sim.home.state import HomeState, read_state, spot_on, with_room, write_state
 
 FOREIGN = [
-    ('name = "house"\nrooms = []\n', "is no state of a home: home: Field required; name a file"),
+    ('name = "house"\nrooms = []\n', "is no state of a home: home: is missing; name a file"),
     ("home = 3\ntime_s = 0.0\n", "is no state of a home: home"),
     ("home = ", "is not TOML"),
     ('home = "villa"\ntime_s = 0.0\n', "is the state of the home villa, not of four_rooms"),
