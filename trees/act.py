@@ -11,7 +11,7 @@ from trees.person import Report
 
 
 def act(context: MissionContext) -> Behaviour:
-    """A thing that was found, and is in the hand if it has to be -> reported or delivered."""
+    """Do the deed with the thing: it was found, and is in the hand if the verb needs that."""
     situation = context.situation
     with_it = [deed for deed in DEEDS if deed.kind.means.searches]
     return fallback(
@@ -30,16 +30,16 @@ def act(context: MissionContext) -> Behaviour:
 
 
 def without_a_search(context: MissionContext) -> list[Behaviour]:
-    """What is done with no thing to look for."""
+    """The deeds that need no search, such as "go" and "put down"."""
     others = [deed for deed in DEEDS if not deed.kind.means.searches]
     return [way for deed in others for way in deed.ways(context)]
 
 
 class SayHowFar(Step):
-    """Says what was found out although not all was done that was asked for; always fails."""
+    """Says how far the task got although not all of it was done; always fails."""
 
     def update(self) -> Status:
-        """The verb knows what is worth telling."""
+        """Let the deed choose what is worth telling."""
         assert self.situation.request.command
         deed, why = deed_of(self.situation.request.command.kind), self.why_before()
         return self.fail(deed.how_far(self.context, why))

@@ -1,4 +1,4 @@
-"""A question to the person: put again while the answer makes no sense, and given up in the end."""
+"""A question to the person: repeated while the answer makes no sense, and in the end given up."""
 
 from abc import abstractmethod
 from dataclasses import replace
@@ -19,34 +19,34 @@ from trees.telling import tell
 
 
 class Ask(Action):
-    """Puts a question, and puts it again while the answer makes no sense.
+    """Asks a question, and asks again while the answer makes no sense.
 
-    Writes dialogue.inquiries, and dialogue.no_help if no answer is of use.
+    Writes dialogue.inquiries; and dialogue.no_help if there is no useful answer.
     """
 
     source = Source.USER
     activity = Activity.ASKING
 
     def __init__(self, name: str, context: MissionContext) -> None:
-        """Wait for each answer as long as the parameters allow."""
+        """Each answer may take as long as the parameters allow."""
         super().__init__(name, context, context.parameters.answer_s)
         self._tries = 0
         self._attended = False
 
     @abstractmethod
     def question(self) -> Question:
-        """What to ask."""
+        """The question for this try."""
 
     @abstractmethod
     def understood(self, answer: str) -> bool:
-        """Take the answer in, if it makes sense."""
+        """Use the answer; return whether it made sense."""
 
     @abstractmethod
     def unresolved(self) -> str:
         """What stays unknown without an answer, as a clause."""
 
     def declines(self, answer: str) -> bool:
-        """Whether the answer is that there is none."""
+        """Whether the answer means that the person does not know or does not want to say."""
         return self.context.interpreter.declines(answer)
 
     def initialise(self) -> None:
@@ -55,7 +55,7 @@ class Ask(Action):
         super().initialise()
 
     def start(self) -> int:
-        """Ask."""
+        """Ask the user; return the number of the request."""
         question = self.question()
         question = replace(question, text=printable(question.text))
         self._tries += 1
@@ -64,7 +64,7 @@ class Ask(Action):
         return self.context.user.ask(question)
 
     def ended(self, result: Result) -> Status:
-        """Take the answer, ask again, or accept that there is none."""
+        """Use the answer, ask again, or accept that there is no answer."""
         if not isinstance(result, Answered):
             self.situation.dialogue.inquiries -= 1  # nobody was there to hear it
             return self._no_help(why_of(result))
@@ -80,13 +80,13 @@ class Ask(Action):
             return self.succeed(result.text)
         self._attended = not unread and self._attend_to(said, result.text)
         if self.situation.agenda.interrupts:
-            return Status.RUNNING  # until the tree gives it up, in this tick
+            return Status.RUNNING  # the tree interrupts this behaviour in the same tick
         if self._tries < self.context.parameters.questions:
             return self.start_again()
         return self._no_help(unread or f"I did not understand your answer '{result.text}'")
 
     def _passed_over(self, said: Said, words: str) -> list[str]:
-        """The things that an answer names beside what was taken from it, if it was not read."""
+        """The things in an unparsed answer that the question is not about, as said."""
         request, knowledge = self.situation.request, self.context.knowledge
         about = {request.object, *request.options}
         names = knowledge.names_in(words) if isinstance(said, Unread) else ()
@@ -94,18 +94,18 @@ class Ask(Action):
         return [f"'{as_said(words, self.context.say.words(name))}'" for name in others]
 
     def _attend_to(self, said: Said, words: str) -> bool:
-        """Answer what is no answer: a further wish, a correction, a question."""
+        """Handle a further wish, a correction or a question; whether it was one of these."""
         if isinstance(said, Answer | Unread):
             return False
         tell(self.context, attend_to(self.context, words, f"I {self.doing()}."))
         return True
 
     def doing(self) -> str:
-        """It waits."""
+        """To follow "I"."""
         return "wait for your answer"
 
     def out_of_time(self) -> Status:
-        """Nobody answered."""
+        """Note that nobody answered."""
         return self._no_help(f"nobody answered within {self._patience_s:g} s")
 
     def cancel(self, request: int) -> None:
@@ -124,21 +124,21 @@ class AskYesNo(Ask):
 
     @abstractmethod
     def agreed(self) -> None:
-        """Take it as so."""
+        """Act on a yes."""
 
     def declines(self, answer: str) -> bool:
-        """A no is an answer."""
+        """A "no" is an answer here."""
         return self.context.interpreter.agrees(answer) is None and super().declines(answer)
 
     def understood(self, answer: str) -> bool:
-        """Hear yes and no."""
+        """Recognise yes and no."""
         self._agrees = self.context.interpreter.agrees(answer)
         if self._agrees:
             self.agreed()
         return self._agrees is not None
 
     def ended(self, result: Result) -> Status:
-        """Fail on a no, too; a yes settles what is asked for."""
+        """Fail on a no, too; after a yes, the message names the command."""
         status = super().ended(result)
         if status != Status.SUCCESS:
             return status

@@ -1,4 +1,4 @@
-"""What all actions of the robot's body and eyes have in common: a goal, and what its failure means.
+"""The base of all actions of body and eyes: a goal, and what its failure means.
 
 The leaves themselves are in `trees/driving.py`, `trees/looking.py` and `trees/handling.py`.
 """
@@ -18,29 +18,29 @@ from trees.telling import tell
 class BodyAction(Action):
     """Something that the robot does with its body or its eyes.
 
-    Whatever fails, or takes too long, comes by here: it is noted where it counts, once for all.
+    All failures and timeouts pass through here, so they are noted in one place.
     """
 
     def __init__(self, name: str, context: MissionContext) -> None:
-        """Give the robot as long as the parameters allow."""
+        """The action may take as long as the parameters allow."""
         super().__init__(name, context, context.parameters.action_s)
 
     @abstractmethod
     def attempt(self) -> str:
-        """What is tried, as an infinitive."""
+        """What is attempted, as an infinitive."""
 
     @abstractmethod
     def note_failure(self, why: str) -> None:
-        """Note what cannot be known, or be done, because this failed."""
+        """Note what cannot be known or done because this failed."""
 
     def failed(self, result: Result) -> Status:
-        """Fail for the reason that the robot gives."""
+        """Fail with the reason that the robot gives."""
         why = self.why(result)
         self.note_failure(why)
         return self.fail(f"I could not {self.attempt()}: {why}" if why == UNSAID else why)
 
     def why(self, result: Result) -> str:
-        """Why it failed, in words: what robots say of things and places are names."""
+        """Why it failed; names of things and places, as robots use them, are put into words."""
         return self.context.say.in_words(why_of(result))
 
     def out_of_time(self) -> Status:
@@ -51,30 +51,30 @@ class BodyAction(Action):
 
 
 class RobotAction(BodyAction):
-    """Pursues one goal of the robot.
+    """Sends one goal to the robot.
 
-    Writes ending.restless; dialogue.at, dialogue.stands and dialogue.heads_for where it drives; and
-    hand.lost if it lost what it held; what failed goes to search.looks or hand.unplaced.
+    Writes ending.restless; when driving, dialogue.at, dialogue.stands and dialogue.heads_for;
+    hand.lost if the robot lost the held thing; on failure, search.looks or hand.unplaced.
     """
 
     searches = False
-    """Whether it serves to look for the thing, so that its failure leaves a place unseen."""
+    """Whether this is part of a search, so that a failure leaves a place unseen."""
 
     def __init__(self, name: str, context: MissionContext) -> None:
-        """Have no goal yet."""
+        """There is no goal yet."""
         super().__init__(name, context)
         self._goal: Goal = Halt()
 
     @abstractmethod
     def goal(self) -> Goal:
-        """What to pursue."""
+        """The goal to send."""
 
     def progress(self) -> str:
-        """What to tell the person when it begins, who cannot see it; empty if that is known."""
+        """What to tell the person at the start; empty if there is nothing new to tell."""
         return ""
 
     def start(self) -> int:
-        """Hand the goal to the robot, and tell the person."""
+        """Send the goal to the robot, and tell the person."""
         if said := self.progress():
             tell(self.context, said)
         self._goal = self.goal()
@@ -86,7 +86,7 @@ class RobotAction(BodyAction):
         return self.context.robot.start(self._goal)
 
     def ended(self, result: Result) -> Status:
-        """Succeed as the robot did; note if it lost what it held."""
+        """Succeed if the robot did; else note whether it lost what it held."""
         self.situation.ending.restless = not isinstance(result, Succeeded)
         if isinstance(result, Succeeded):
             if isinstance(self._goal, DriveTo):
@@ -97,7 +97,7 @@ class RobotAction(BodyAction):
         return self.failed(result)
 
     def doing(self) -> str:
-        """By the goal."""
+        """According to the goal."""
         say = self.context.say
         match self._goal:
             case DriveTo(place):
@@ -112,7 +112,7 @@ class RobotAction(BodyAction):
                 return "stop"
 
     def attempt(self) -> str:
-        """By the goal."""
+        """According to the goal."""
         say = self.context.say
         match self._goal:
             case DriveTo(place):
@@ -128,7 +128,7 @@ class RobotAction(BodyAction):
                 return "stop"
 
     def note_failure(self, why: str) -> None:
-        """A place stays out of reach, or unseen; or there is no room for what is in the hand."""
+        """Note that a place was not reached or seen, or that the thing could not be put there."""
         match self._goal:
             case DriveTo(place) if self.searches:
                 self.situation.search.looks.not_reached(place, why)
@@ -138,7 +138,7 @@ class RobotAction(BodyAction):
                 self.situation.hand.unplaced[place] = why
 
     def cancel(self, request: int) -> None:
-        """Brake."""
+        """Cancel the goal, so that the robot stops."""
         self.context.robot.cancel(request)
 
 

@@ -1,4 +1,4 @@
-"""Search: by one belief and a plan that weighs looking against asking; or by the paper's stages."""
+"""The search: by one belief and a plan that weighs looking against asking; or by stages."""
 
 from collections.abc import Iterator
 from itertools import count, takewhile
@@ -30,14 +30,14 @@ from trees.ways import Ways
 
 
 def search(context: MissionContext) -> Behaviour:
-    """An object -> `situation.search.detection` and `situation.search.found`."""
+    """Find the object: writes `situation.search.detection` and `situation.search.found`."""
     if context.parameters.search == "paper":
         return search_by_stages(context)
     return search_by_plan(context)
 
 
 def search_by_plan(context: MissionContext) -> Behaviour:
-    """All sources are heard, then the robot looks or asks, whichever costs less, until it sees."""
+    """Hear all sources; then look or ask, whichever costs less, until the thing is seen."""
     situation = context.situation
     return fallback(
         "search",
@@ -54,7 +54,7 @@ def search_by_plan(context: MissionContext) -> Behaviour:
 
 
 def until_it_is_seen(context: MissionContext) -> Behaviour:
-    """Step by step; while the language model thinks about where it may be, the search goes on."""
+    """Repeat the next step; meanwhile the language model may think about where the thing may be."""
     search, ways = context.situation.search, Ways(context)
 
     def steps() -> Iterator[int]:
@@ -71,7 +71,7 @@ def until_it_is_seen(context: MissionContext) -> Behaviour:
 
 
 def next_step(context: MissionContext, ways: Ways) -> Behaviour:
-    """One look, at what is best to look at next; before it a question, if that is better."""
+    """Look at the best place; before that ask, or wait for the model, if that is better."""
     search = context.situation.search
     return sequence(
         "next step",
@@ -103,7 +103,7 @@ def next_step(context: MissionContext, ways: Ways) -> Behaviour:
 
 
 def hear_the_model_out(context: MissionContext, ways: Ways) -> tuple[Behaviour, ...]:
-    """While the language model thinks, nobody is asked who might not have to be."""
+    """Before a question to the person, wait for the language model if it is still thinking."""
     search = context.situation.search
 
     def may_help() -> bool:
@@ -123,7 +123,7 @@ def hear_the_model_out(context: MissionContext, ways: Ways) -> tuple[Behaviour, 
 
 
 def go_there(context: MissionContext, ways: Ways) -> Behaviour:
-    """Drive to the place that is next, unless what is heard on the way makes another one better."""
+    """Drive to the planned place; replan on the way if news makes another place better."""
     if context.model is None:
         return Visit("drive", context)
     return as_long_as(

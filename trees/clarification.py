@@ -31,7 +31,7 @@ _QUESTIONS = {CommandKind.FIND, CommandKind.COUNT, CommandKind.CHECK, CommandKin
 
 
 class AskDoYouMean(AskYesNo):
-    """Asks whether a known name is meant: the robot never silently guesses.
+    """Asks whether a known name is meant: the robot never guesses silently.
 
     Reads request.guess; writes request.command.
     """
@@ -48,13 +48,13 @@ class AskDoYouMean(AskYesNo):
         return Question(QuestionKind.CONFIRM, guess, text, objects)
 
     def agreed(self) -> None:
-        """The guess is what was asked for."""
+        """Use the guess as the target."""
         assert self.situation.request.command
         command = replace(self.situation.request.command, target=self.situation.request.guess)
         self.situation.request.command = command
 
     def understood(self, answer: str) -> bool:
-        """Instead of yes or no, the person may say what they mean: "no, the mug"."""
+        """Take yes and no; or, in place of them, another name: "no, the mug"."""
         if beside := self._beside_yes(answer):
             return beside.adds and self._attend_to(Unread(answer), answer)
         names = self.context.knowledge.names_in(answer)
@@ -67,7 +67,7 @@ class AskDoYouMean(AskYesNo):
         return True
 
     def _attend_to(self, said: Said, words: str) -> bool:
-        """Of "yes, and the drill", the yes is the answer, and the rest a wish beside it."""
+        """In "yes, and the drill", take the yes as the answer, and the rest as a further wish."""
         if not (beside := self._beside_yes(words)):
             return super()._attend_to(said, words)
         self._agrees = True
@@ -76,11 +76,11 @@ class AskDoYouMean(AskYesNo):
         return True
 
     def _passed_over(self, said: Said, words: str) -> list[str]:
-        """Nothing, if there was a wish."""
+        """Nothing if the answer contained a wish, which is handled already."""
         return [] if self._beside_yes(words) else super()._passed_over(said, words)
 
     def _beside_yes(self, words: str) -> Correction | None:
-        """What is wished beside the yes, or in place of what was asked for."""
+        """The wish that comes with a yes, or that replaces the command; None if there is none."""
         said = self.context.interpreter.after_yes(words)
         if isinstance(said, Request):
             return Correction(said)
@@ -94,9 +94,9 @@ class AskDoYouMean(AskYesNo):
 
 
 class AskWhichObject(Ask):
-    """Asks which thing is meant, where the words fit several or none.
+    """Asks which thing is meant if the words fit several things, or none.
 
-    Reads request.options; writes request.object, or fewer request.options.
+    Reads request.options; writes request.object, or reduces request.options.
     """
 
     def question(self) -> Question:
@@ -117,17 +117,17 @@ class AskWhichObject(Ask):
         return Question(QuestionKind.WHICH_OBJECT, target, text, options)
 
     def _all_left_out(self) -> bool:
-        """Whether things were named, and all of them said not to be meant: "another mug"."""
+        """Whether the words name things, and all of these are excluded: "another mug"."""
         assert self.situation.request.command
         return bool(self.context.knowledge.objects_named(self.situation.request.command.target))
 
     def _other_names(self, target: str) -> tuple[str, ...]:
-        """The nearest known names, less the one that the person did not mean."""
+        """The nearest known names, without the guess that the person rejected."""
         names = nearest(self.context, target)
         return tuple(name for name in names if name != self.situation.request.guess)
 
     def understood(self, answer: str) -> bool:
-        """One object is enough; several narrow the next question down."""
+        """Succeed with one object; if several fit, keep them as options of the next question."""
         options, find = self.situation.request.options, self.context.knowledge.objects_named
         said = _all_named(self.context.interpreter.read(answer))
         if self._names_others_too(said) or self._to_another_place(said) or _from_where(said):
@@ -147,7 +147,7 @@ class AskWhichObject(Ask):
         return len(meant) == 1
 
     def _attend_to(self, said: Said, words: str) -> bool:
-        """Several may be meant, or any but the one that is named."""
+        """Handle other replies: several things, all but one, a number, another goal or source."""
         request, find = self.situation.request, self.context.knowledge.objects_named
         said = _all_named(said)
         if isinstance(said, Refusal) and (rest := self._but(said.words)):
@@ -170,12 +170,12 @@ class AskWhichObject(Ask):
         return True
 
     def _correct(self, said: Correction, words: str, instead: str = " instead") -> bool:
-        """Do this in place of what was asked about: there is nothing left to be answered."""
+        """Do this instead of what was asked about; then no answer is needed any more."""
         tell(self.context, correct(self.context, said, words, f"I {self.doing()}.", instead))
         return True
 
     def _names_others_too(self, said: Said) -> bool:
-        """Whether all of several things are meant, of which some were not offered."""
+        """Whether the answer names several things, some of which were not offered."""
         find, options = self.context.knowledge.objects_named, self.situation.request.options
         things = said.things if isinstance(said, Answer) else None
         if not options or not things or things.one_of or len(things.members) < 2:
@@ -184,7 +184,7 @@ class AskWhichObject(Ask):
         return all(named) and any(not {*each} & {*options} for each in named)
 
     def _to_another_place(self, said: Said) -> bool:
-        """Whether one of the things is to go elsewhere than was asked for."""
+        """Whether the answer sends the thing to another place than the command does."""
         match said:
             case Request(tasks=[Task(goal=Where() as goal)]) if named(said) and goal != ME:
                 command = self.situation.request.command
@@ -192,7 +192,7 @@ class AskWhichObject(Ask):
         return False
 
     def _but(self, words: str) -> tuple[str, ...]:
-        """What is left of the things that were offered; none if none is named, or each."""
+        """The offered things that the words do not exclude; empty if they exclude none, or all."""
         request, find = self.situation.request, self.context.knowledge.objects_named
         named = [one for name in self.context.knowledge.names_in(words) for one in find(name)]
         named += picked(self.context.interpreter.read(words), request.options)
@@ -200,7 +200,7 @@ class AskWhichObject(Ask):
         return rest if len(rest) < len(request.options) else ()
 
     def _several(self, said: Said) -> tuple[str, ...]:
-        """More than one of those that were offered: "all", "the apple and the pear"."""
+        """The offered things that are meant, if several: "all", "the apple and the pear"."""
         offered = self.question().options
         if not isinstance(said, Answer) or (said.things and said.things.one_of):
             return ()
@@ -220,28 +220,28 @@ class AskWhichObject(Ask):
         return names if len(names) > 1 and are_known else ()
 
     def _named(self, said: Said) -> tuple[str, ...]:
-        """What an answer names in more words; a command is one only for what was offered."""
+        """The objects that a longer answer names; a command counts only if things were offered."""
         command = self.situation.request.command
         if (
             isinstance(said, Request)
             and command
             and said.tasks[0].verb in _QUESTIONS - {command.kind}
         ):
-            return ()  # "where is the apple?"
+            return ()  # a question such as "where is the apple?"
         if not self.situation.request.options and isinstance(said, Request):
             return ()
         find, words = self.context.knowledge.objects_named, named(said)
         return find(words) or tuple(one for name in words.split(" or ") for one in find(name))
 
     def _nearly(self, answer: str) -> tuple[str, ...]:
-        """What was offered, if an answer is a slip of it; that is asked, with nothing else."""
+        """If the answer may misspell an offered thing, keep only that option; returns ()."""
         near = self.context.knowledge.near_name(answer)
         if near in self.situation.request.options:
             self.situation.request.options = (near,)
         return ()
 
     def unresolved(self) -> str:
-        """Name the nearest known things."""
+        """Name the options, or the nearest known things."""
         assert self.situation.request.command
         target = self.situation.request.command.target
         if self.situation.request.options:
@@ -253,7 +253,7 @@ class AskWhichObject(Ask):
 
 
 def _all_named(said: Said) -> Said:
-    """An answer with one thing more is one with all of them: "the pear, the mug, too"."""
+    """Read a correction that adds a thing ("the pear, the mug, too") as an answer."""
     match said:
         case Correction(meant=Things(members=[_, _, *_]) as things, adds=True):
             return Answer(things=things)
@@ -261,7 +261,7 @@ def _all_named(said: Said) -> Said:
 
 
 def _from_where(said: Said) -> Correction | None:
-    """An answer that says where the thing is, too: "the pear from the sofa"."""
+    """A correction, if the answer also says where the thing is: "the pear from the sofa"."""
     match said:
         case Answer(things=Things() as things, where=[source]):
             return Correction(things, source=source)

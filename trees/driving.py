@@ -15,11 +15,11 @@ from trees.progress import on_the_way, on_to_the_next
 from trees.recall import is_here
 
 EXPERIMENTER = "experimenter"
-"""Who names a place to which an experimenter sends the robot."""
+"""The source of a place to which an experimenter sends the robot."""
 
 
 class DriveToCandidate(RobotAction):
-    """Goes to the place where the thing may be.
+    """Drives to the current candidate place.
 
     Reads search.candidate; writes dialogue.away.
     """
@@ -35,15 +35,15 @@ class DriveToCandidate(RobotAction):
 
 
 class Visit(DriveToCandidate):
-    """Goes to a place for the first time: it counts as visited if it is reached.
+    """Drives to a place for the first time; if it is reached, it counts as visited.
 
-    Where an experimenter sends the robot meanwhile, it goes instead.
+    If an experimenter sends the robot to another place meanwhile, it drives there instead.
 
     Reads search.candidate, search.sent_to and search.looks; writes search.looks.
     """
 
     def start(self) -> int:
-        """Go where it is sent, if it is."""
+        """Drive to the experimenter's place if there is one, else to the candidate."""
         search = self.situation.search
         if search.sent_to and is_here(self.context, search.sent_to):
             search.candidate = Candidate(search.sent_to, EXPERIMENTER)
@@ -51,7 +51,7 @@ class Visit(DriveToCandidate):
         return super().start()
 
     def update(self) -> Status:
-        """Turn round where it is sent elsewhere."""
+        """Cancel and start again if the experimenter sends the robot elsewhere."""
         sent_to, request = self.situation.search.sent_to, self._request
         if sent_to and is_here(self.context, sent_to) and request is not None:
             self._wait_no_more(request)
@@ -60,11 +60,11 @@ class Visit(DriveToCandidate):
         return super().update()
 
     def progress(self) -> str:
-        """The first place was announced; of the next ones, say why."""
+        """For each place after the first, why the robot goes on; the first one was announced."""
         return on_to_the_next(self.context)
 
     def ended(self, result: Result) -> Status:
-        """Count only a place that was reached."""
+        """Count the place if it was reached."""
         assert self.situation.search.candidate
         if isinstance(result, Succeeded):
             self.situation.search.looks.reached(self.situation.search.candidate.place)
@@ -72,7 +72,7 @@ class Visit(DriveToCandidate):
 
 
 class DriveBack(RobotAction):
-    """Goes to where things are asked for or delivered: `person` or `delivery`.
+    """Drives to the person, or to the delivery table.
 
     Writes dialogue.away.
     """
@@ -85,7 +85,7 @@ class DriveBack(RobotAction):
         self._place = place
 
     def progress(self) -> str:
-        """Say what comes of it."""
+        """Say what the robot does next."""
         return on_the_way(self.context, self._place)
 
     def goal(self) -> Goal:
@@ -93,13 +93,13 @@ class DriveBack(RobotAction):
         return DriveTo(self._place)
 
     def ended(self, result: Result) -> Status:
-        """Be back with the person."""
+        """The robot is no longer away if it arrived."""
         self.situation.dialogue.away = not isinstance(result, Succeeded)
         return super().ended(result)
 
 
 def back_to_the_person(context: MissionContext) -> Behaviour:
-    """Come back; what was in the way may be gone a moment later, so this is tried twice."""
+    """Drive to the person; try twice, because what was in the way may be gone a moment later."""
     return fallback(
         "back to the person",
         DriveBack("come back", context, PERSON),
@@ -108,7 +108,7 @@ def back_to_the_person(context: MissionContext) -> Behaviour:
 
 
 class DriveToSurface(RobotAction):
-    """Goes to the furniture where the held thing may be put down.
+    """Drives to the furniture where the held thing may be put down.
 
     Reads hand.surface; writes dialogue.away and hand.unplaced.
     """
@@ -116,29 +116,29 @@ class DriveToSurface(RobotAction):
     activity = Activity.DRIVING
 
     def progress(self) -> str:
-        """Say where to."""
+        """Say where the robot drives."""
         return on_the_way(self.context, self.situation.hand.surface)
 
     def goal(self) -> Goal:
-        """Drive there; the person is not there."""
+        """Drive there, away from the person."""
         self.situation.dialogue.away = True
         return DriveTo(self.situation.hand.surface)
 
     def note_failure(self, why: str) -> None:
-        """It cannot be put down there."""
+        """Note that the thing cannot be put down there."""
         self.situation.hand.unplaced[self.situation.hand.surface] = why
 
 
 class DriveToGoal(RobotAction):
-    """Goes to where the thing, or the robot, is to go.
+    """Drives to the goal of the command, for a thing or for the robot itself.
 
-    Reads request.goal; writes dialogue.away, and hand.unplaced if there is something in the hand.
+    Reads request.goal; writes dialogue.away, and hand.unplaced if something is in the hand.
     """
 
     activity = Activity.DRIVING
 
     def progress(self) -> str:
-        """Say where to."""
+        """Say where the robot drives."""
         return on_the_way(self.context, self.situation.request.goal)
 
     def goal(self) -> Goal:
@@ -147,13 +147,13 @@ class DriveToGoal(RobotAction):
         return DriveTo(self.situation.request.goal)
 
     def ended(self, result: Result) -> Status:
-        """Be with the person, if that is the goal."""
+        """If the goal is the person, the robot is no longer away."""
         if isinstance(result, Succeeded) and self.situation.request.goal == PERSON:
             self.situation.dialogue.away = False
         return super().ended(result)
 
     def note_failure(self, why: str) -> None:
-        """It cannot be put down there."""
+        """Note that the held thing cannot be put down there."""
         if self.situation.hand.in_hand:
             place = self.situation.request.goal
             there = self.context.say.the(place)

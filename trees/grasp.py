@@ -1,4 +1,4 @@
-"""Get hold of the thing that was found: pick it up, try again, search again."""
+"""Grasp the thing that was found: pick it up, try again, search again."""
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
@@ -14,7 +14,7 @@ from trees.search import look_over
 
 
 def grasp(context: MissionContext) -> Behaviour:
-    """Get hold of it, unless it may stay where it is; if it is gone, search it again."""
+    """Grasp the thing, unless it may stay where it is; if it is gone, search again."""
     situation = context.situation
 
     def may_stay() -> bool:
@@ -39,9 +39,9 @@ def grasp(context: MissionContext) -> Behaviour:
 
 
 def get_hold(context: MissionContext, *first: Behaviour) -> Behaviour:
-    """Pick it up; after a miss look again and try another approach, as long as it is there.
+    """Pick it up; after a miss, look again and try another approach, as long as it is there.
 
-    What is in `first` may make that needless.
+    If a behaviour in `first` succeeds, the thing is in the hand and this is skipped.
     """
     situation = context.situation
     more_tries = [f"try {number}" for number in range(2, context.parameters.grasps + 1)]
@@ -65,10 +65,10 @@ def get_hold(context: MissionContext, *first: Behaviour) -> Behaviour:
 
 
 class ForgetSighting(Step):
-    """The thing is no longer where it was seen."""
+    """Forgets where the thing was seen: it is no longer there."""
 
     def update(self) -> Status:
-        """Begin the search anew."""
+        """Reset the search."""
         self.situation.search.detection = self.situation.search.found = None
         self.situation.search.gone = False
         return Status.SUCCESS

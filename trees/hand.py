@@ -1,4 +1,4 @@
-"""The hand holds one thing at a time: what is in it is put away before another one is taken."""
+"""The hand holds one thing at a time: what is in it is put away before the next one is grasped."""
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
@@ -13,7 +13,7 @@ from trees.telling import sentence, tell
 
 
 def hand_is_free(context: MissionContext) -> Behaviour:
-    """Go on if the hand is free for what is asked; else put away what it holds, and say so."""
+    """Succeed if the hand is free for the task; else put away what it holds, and say so."""
     hand = context.situation.hand
 
     def back() -> tuple[str, ...]:
@@ -40,7 +40,7 @@ def hand_is_free(context: MissionContext) -> Behaviour:
 
 
 def put_back_first(context: MissionContext) -> Behaviour:
-    """Put what is held where it was taken from, the surface at hand."""
+    """Put the held thing back where it was taken from, which is `hand.surface`."""
     return sequence(
         "put it back",
         SayWhatFirst("say so", context, "I put {held} back {surface} first."),
@@ -49,10 +49,10 @@ def put_back_first(context: MissionContext) -> Behaviour:
 
 
 class HandIsFree(Step):
-    """Succeeds if the hand is free for what is asked: it holds one thing at a time."""
+    """Succeeds if the hand is empty, holds the thing of the task, or is not needed."""
 
     def update(self) -> Status:
-        """Fail if another thing than the one that is asked for is in it."""
+        """Fail if the hand holds another thing."""
         held = self.situation.hand.in_hand
         if held in (None, self.situation.request.object) or not meaning(self.situation).grasps:
             return Status.SUCCESS
@@ -60,18 +60,18 @@ class HandIsFree(Step):
 
 
 class SayWhatFirst(Step):
-    """Tells what becomes of what is in the hand.
+    """Tells what the robot does first with the thing in its hand.
 
     Reads hand.in_hand and hand.surface.
     """
 
     def __init__(self, name: str, context: MissionContext, text: str) -> None:
-        """`text` may use {held} and {surface}, with its preposition."""
+        """`text` may contain {held}, and {surface} with its preposition."""
         super().__init__(name, context)
         self._text = text
 
     def update(self) -> Status:
-        """Say it; what has fallen meanwhile cannot be put anywhere."""
+        """Tell it; fail if the thing has fallen meanwhile."""
         hand = self.situation.hand
         if hand.in_hand is None:
             return self.fail(hand.lost)
@@ -82,13 +82,13 @@ class SayWhatFirst(Step):
 
 
 class FellOut(Step):
-    """Succeeds if what was held fell, and says so: the hand is free by that.
+    """Succeeds if the held thing fell, and says so: then the hand is free.
 
     Reads hand.in_hand and hand.lost.
     """
 
     def update(self) -> Status:
-        """Nobody wants it now."""
+        """Tell it; the thing is left there, as nobody has asked for it."""
         if self.situation.hand.in_hand is not None:
             return Status.FAILURE
         tell(self.context, sentence(self.situation.hand.lost or "It fell from my hand"))
@@ -99,21 +99,21 @@ class HandStaysFull(Step):
     """Says why the hand is not free; always fails."""
 
     def update(self) -> Status:
-        """There was no room for what it holds."""
+        """Say that the thing is still held, because no place had room for it."""
         held, why = self.situation.hand.in_hand or "", self.why_before()
         return self.fail(f"{why}; I still hold {self.context.say.the(held)}")
 
 
 def arm_for_it(context: MissionContext) -> tuple[Behaviour, ...]:
-    """What declines at once what a robot without an arm cannot do; nothing if it has one."""
+    """A check that declines what needs an arm; nothing if the robot has one."""
     return () if context.has_arm else (NeedsNoArm("needs no arm", context),)
 
 
 class NeedsNoArm(Step):
-    """Fails if what was asked for takes an arm."""
+    """Fails if the task needs an arm."""
 
     def update(self) -> Status:
-        """Looking and going take none."""
+        """Searching and driving need none."""
         if meaning(self.situation).grasps:
             return self.fail("I have no arm: I can find things, but not take them")
         return Status.SUCCESS

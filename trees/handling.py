@@ -1,4 +1,4 @@
-"""Leaves that use the robot's hand: what the fingers feel decides."""
+"""Leaves that use the hand; what the fingers feel decides whether it worked."""
 
 from abc import abstractmethod
 
@@ -13,7 +13,7 @@ from trees.context import MissionContext
 
 
 class PickUp(RobotAction):
-    """Grasps the thing where it was seen, and lifts it; what the fingers feel decides.
+    """Grasps the thing where it was seen, and lifts it; the fingers decide whether it worked.
 
     Reads search.detection, search.found and hand.felt; writes hand.reached_for and hand.in_hand,
     clears hand.lost and hand.unplaced.
@@ -22,25 +22,25 @@ class PickUp(RobotAction):
     activity = Activity.HANDLING
 
     def __init__(self, name: str, context: MissionContext) -> None:
-        """Reach for it."""
+        """It has no second chance used yet."""
         super().__init__(name, context)
         self._finished = False
 
     def initialise(self) -> None:
-        """Begin."""
+        """Start with the second chance unused."""
         self._finished = False
         super().initialise()
 
     def goal(self) -> Goal:
-        """Pick what was detected."""
+        """Pick up the detected thing."""
         assert self.situation.search.detection
         self.situation.hand.reached_for = self.situation.search.detection.label
         return Pick(self.situation.search.detection)
 
     def ended(self, result: Result) -> Status:
-        """Remember that it is no longer there.
+        """Note whether the thing is in the hand.
 
-        If the robot failed with the thing in its hand, it is given one chance to finish.
+        If the robot failed with the thing in its hand, it gets one second chance to finish.
         """
         hand, search = self.situation.hand, self.situation.search
         assert search.detection
@@ -59,7 +59,7 @@ class PickUp(RobotAction):
         return super().ended(result)
 
     def out_of_time(self) -> Status:
-        """With the thing in the hand it is as if the robot had failed; only that it may move."""
+        """If the thing is in the hand, treat it as a failure of the robot, which may still move."""
         hand, seen = self.situation.hand, self.situation.search.detection
         assert seen
         if not (hand.felt and hand.in_hand == seen.label):
@@ -70,7 +70,7 @@ class PickUp(RobotAction):
 
 
 class PutDownAction(RobotAction):
-    """Puts the held thing down.
+    """Puts down the held thing.
 
     Reads hand.in_hand and hand.felt; writes hand.in_hand and hand.put_at.
     """
@@ -78,21 +78,21 @@ class PutDownAction(RobotAction):
     activity = Activity.HANDLING
 
     def __init__(self, name: str, context: MissionContext) -> None:
-        """Hold nothing yet."""
+        """No thing is known yet."""
         super().__init__(name, context)
         self._held: str | None = None
 
     @abstractmethod
     def place(self) -> str:
-        """Where to."""
+        """The place to put it."""
 
     def goal(self) -> Goal:
-        """Put it there; afterwards the hand does not tell what it was."""
+        """Put it there, and keep its name: afterwards the hand is empty."""
         self._held = self.situation.hand.in_hand
         return PutDown(self.place())
 
     def ended(self, result: Result) -> Status:
-        """Remember that it is here now."""
+        """Remember that the thing is here now."""
         if isinstance(result, Succeeded) and self.situation.hand.felt:
             result = Failed("my fingers do not let go of it")
         if isinstance(result, Succeeded):
@@ -104,7 +104,7 @@ class PutDownAction(RobotAction):
 
 
 class PutDownAt(PutDownAction):
-    """Puts the held thing down at a place that the tree names."""
+    """Puts the held thing down at a fixed place."""
 
     def __init__(self, name: str, context: MissionContext, place: str) -> None:
         """Name the place."""
@@ -112,34 +112,34 @@ class PutDownAt(PutDownAction):
         self._place = place
 
     def place(self) -> str:
-        """That one."""
+        """The fixed place."""
         return self._place
 
 
 class PutDownThere(PutDownAction):
-    """Puts the held thing down on the surface at hand.
+    """Puts the held thing down on the chosen surface.
 
     Reads hand.surface.
     """
 
     def place(self) -> str:
-        """The surface that was chosen."""
+        """The chosen surface."""
         return self.situation.hand.surface
 
 
 class PutDownAtGoal(PutDownAction):
-    """Puts the held thing down where it is to go.
+    """Puts the held thing down at the goal of the command.
 
     Reads request.goal.
     """
 
     def place(self) -> str:
-        """The goal that was chosen."""
+        """The chosen goal."""
         return self.situation.request.goal
 
 
 class ComeToRest(RobotAction):
-    """Stands still, so that the fingers tell what was got hold of; always fails: then one goes on.
+    """Stops the robot, so that the fingers can tell what they hold; always fails, to go on.
 
     Reads and writes agenda.unsettled.
     """
@@ -147,11 +147,11 @@ class ComeToRest(RobotAction):
     activity = Activity.HANDLING
 
     def goal(self) -> Goal:
-        """Do nothing."""
+        """Stand still."""
         return Halt()
 
     def ended(self, result: Result) -> Status:
-        """What the hand holds is known by now."""
+        """What the hand holds is known now."""
         self.situation.agenda.unsettled = False
         super().ended(result)
         return Status.FAILURE

@@ -1,8 +1,8 @@
-"""Who says where it may be: what each source knows becomes a part of one belief.
+"""The sources that say where a thing may be; what each one says becomes part of one belief.
 
-How far each is to be believed is estimated, not measured, but for the list of a language model: the
-lists of the paper had the right place in two thirds of the missions without default locations, and
-in nine tenths with them.
+The trust in each source is an estimate, not a measurement, except for the list of a language
+model: the lists of the paper contained the right place in two thirds of the missions without
+default locations, and in nine tenths with them.
 """
 
 from functools import partial
@@ -23,20 +23,20 @@ from trees.recall import Memory, is_here
 
 MEMORY_TRUST = 0.9
 SOURCE_TRUST = 0.9
-"""Of a source of somebody's own."""
+"""For a source that a user adds."""
 ONTOLOGY_TRUST = 0.95
-"""That a thing is at one of its default locations."""
+"""The probability that a thing is at one of its default locations."""
 PERSON_TRUST = 0.95
 LIST_TRUST = 0.75
-"""That a thing is at one of the places of a list that a language model wrote."""
+"""The probability that a thing is on a list that a language model wrote."""
 DENIED = 0.001
-"""What is left of a place where the person says that it is not: all others are looked at first."""
+"""The factor for a place that the person has denied: all others are looked at first."""
 CLEAR = 0.5
-"""Where a place is as likely as this, nobody else is asked before it was looked at."""
+"""If a place is as likely as this, the robot looks there before it asks anyone else."""
 
 
 def what_is_known(context: MissionContext) -> Behaviour:
-    """All who answer at once are heard -> `situation.search.whereabouts.statements`."""
+    """Hear all sources that answer at once; writes `situation.search.whereabouts.statements`."""
     return sequence(
         "what is known",
         BeginSearch("begin", context),
@@ -47,9 +47,9 @@ def what_is_known(context: MissionContext) -> Behaviour:
 
 
 def consult(context: MissionContext) -> Behaviour:
-    """The language model is asked, once a search, when nobody else knows enough.
+    """Ask the language model, once for each search, and only if no other source is clear enough.
 
-    It always succeeds in the end: whatever comes of it, the search goes on.
+    Always succeeds: the search goes on with or without an answer.
     """
     asked = (
         (RankAll("llm ranks places", context),)
@@ -80,7 +80,7 @@ def wants_advice(context: MissionContext) -> bool:
 
 
 def believed(context: MissionContext) -> Belief:
-    """Where the thing may be, by all that was said and seen so far."""
+    """Where the thing may be, given all that was said and seen so far."""
     search, home = context.situation.search, context.knowledge.places()
     looks, named = search.looks, search.whereabouts.named
     denied = context.facts.places_denied(context.situation.request.object or "")
@@ -94,7 +94,7 @@ def believed(context: MissionContext) -> Belief:
 
 
 def is_clear(context: MissionContext) -> bool:
-    """Whether one place, still to be looked at, is likely enough to go there first."""
+    """Whether one place that is still to be looked at is likely enough to go there first."""
     search = context.situation.search
     return any(
         likely.probability >= CLEAR and search.whereabouts.may_look_at(likely.place, search.looks)
@@ -103,10 +103,10 @@ def is_clear(context: MissionContext) -> bool:
 
 
 class BeginSearch(Step):
-    """Forgets what was said in a search before."""
+    """Forgets the statements of an earlier search."""
 
     def update(self) -> Status:
-        """Begin with nothing; where it was looked at stays known."""
+        """Reset them; the places that were looked at stay known."""
         self.situation.search.whereabouts.begin()
         self.situation.search.default_locations = ()
         self.situation.search.looks.missed = ""
@@ -119,13 +119,13 @@ class Hear(Step):
     trust = SOURCE_TRUST
 
     def __init__(self, name: str, context: MissionContext, source: PlaceSource) -> None:
-        """Ask this source."""
+        """`source` is the one to ask."""
         super().__init__(name, context)
         self.knows = source
         self.source = source.name
 
     def update(self) -> Status:
-        """Hear it."""
+        """Add its statement to the belief."""
         assert self.situation.request.object
         named = self.knows.places_of(self.situation.request.object)
         places = tuple(p for p in dict.fromkeys(named) if is_here(self.context, p))
@@ -138,26 +138,26 @@ class Hear(Step):
         return self.succeed(", ".join(places))
 
     def heard(self, places: tuple[str, ...]) -> None:
-        """What else follows from it: nothing."""
+        """What else follows from the statement; by default nothing."""
 
 
 class HearMemory(Hear):
-    """The robot's own memory, which forgets by itself where the thing was looked for in vain.
+    """Takes in the robot's memory, which already forgets where the thing was looked for in vain.
 
-    If it has learned from what it saw, it tells how much its memory is worth, and where people may
-    have taken the thing since.
+    If the robot has learned from experience, the statements say how reliable the memory is, and
+    where people may have taken the thing since.
     """
 
     trust = MEMORY_TRUST
 
     def __init__(self, name: str, context: MissionContext) -> None:
-        """Ask the facts."""
+        """The source is the facts."""
         super().__init__(name, context, Memory(context.facts))
 
     def update(self) -> Status:
-        """Hear what was learned; without that, what is remembered.
+        """Hear what was learned; without experience, what is remembered.
 
-        Of places that this home has not, or no more, nothing is said: that is left to others.
+        Places that are not in this home are left out, which leaves their share to other sources.
         """
         name, experience = self.situation.request.object, self.context.experience
         assert name
@@ -176,7 +176,7 @@ class HearMemory(Hear):
         return self.succeed(", ".join(heard) or "knows no place")
 
     def heard(self, places: tuple[str, ...]) -> None:
-        """It was seen or said there since the last look there."""
+        """The thing was seen there, or said to be there, since the last look."""
         self.situation.search.whereabouts.named.update(places)
 
 
@@ -186,9 +186,9 @@ class HearOntology(Step):
     source = Source.ONTOLOGY
 
     def update(self) -> Status:
-        """Which of several is likeliest, the language model may say; it may write of these only.
+        """If there are several, the language model may later rank them, or list some of them.
 
-        The ontology is believed as far as this home has what it speaks of.
+        The trust is reduced by the share of the default locations that this home does not have.
         """
         name, knowledge = self.situation.request.object, self.context.knowledge
         assert name
@@ -204,34 +204,34 @@ class HearOntology(Step):
 
 
 class Consulted(Step):
-    """Notes that the language model is asked."""
+    """Notes that the language model is being asked."""
 
     def update(self) -> Status:
-        """Once a search is enough."""
+        """Prevent a second consultation in this search."""
         self.situation.search.whereabouts.consulted = True
         self.situation.search.whereabouts.thinks = True
         return Status.SUCCESS
 
 
 class HasThought(Step):
-    """Notes that the language model thinks no more, whatever came of it."""
+    """Notes that the language model is done, whatever it answered."""
 
     def update(self) -> Status:
-        """Nothing is to come any more."""
+        """Nothing more is expected from it."""
         self.situation.search.whereabouts.thinks = False
         return Status.SUCCESS
 
 
 class RankAll(RankPlaces):
-    """Has every place of the home scored, and takes all of it in."""
+    """Has the model score every place of the home, and takes in all scores."""
 
     @property
     def among(self) -> tuple[str, ...]:
-        """All are allowed."""
+        """Empty: all places are allowed."""
         return ()
 
     def ended(self, result: Result) -> Status:
-        """Keep how likely each place is."""
+        """Add the scores to the belief."""
         if not isinstance(result, Scored):
             return self.failed(result)
         ranked = self.advice.ranker.ranked(result)
@@ -241,12 +241,12 @@ class RankAll(RankPlaces):
 
 
 class HearList(Step):
-    """Takes in the list that the language model wrote, as far as its places exist."""
+    """Takes in the verified list of the language model."""
 
     source = Source.LLM
 
     def update(self) -> Status:
-        """The first of a list is the likeliest."""
+        """Weigh the places by their order: the first is the likeliest."""
         places = [candidate.place for candidate in self.situation.search.candidates]
         said = Statement(Source.LLM, in_order(places, factor=0.8), LIST_TRUST)
         self.situation.search.whereabouts.hear(said)

@@ -1,7 +1,7 @@
-"""Choices of a place that an experimenter may hold: they let them go, or choose another place.
+"""Choices of a place that an experimenter may hold, then release or replace by another place.
 
-Nobody is told; what is done by it stands in the log. A choice that waits is called off like all
-that the robot does: by a stop, or by what the person says meanwhile.
+The person is not told; the log shows what was done. A waiting choice is cancelled like any action:
+by a stop, or by what the person says meanwhile.
 """
 
 from abc import abstractmethod
@@ -19,54 +19,53 @@ from trees.nodes import Action
 from trees.recall import is_here
 
 HELD_S = 600.0
-"""A choice that waits for longer (mission time, s) is let go: nobody seems to be there."""
+"""A choice that waits longer than this is released (mission time, s): nobody seems to be there."""
 
 
 class HoldChoice(Action):
-    """Waits while what was chosen is held; succeeds unless something else is to be done by then.
+    """Waits while the choice is held; then goes on with it, or with the experimenter's place.
 
-    Only a place that this home has, and that would do, can take its place. Reads and writes
-    steering.
+    The other place must exist in this home, and suit the purpose. Reads and writes steering.
     """
 
     activity = Activity.THINKING
 
     def __init__(self, name: str, context: MissionContext) -> None:
-        """Wait no longer than somebody may be away."""
+        """Wait at most `HELD_S`."""
         super().__init__(name, context, HELD_S)
         self.steering = context.situation.steering
 
     @abstractmethod
     def choice(self) -> Choice:
-        """What was chosen."""
+        """The choice as it stands."""
 
     @abstractmethod
     def adopt(self, place: str) -> None:
-        """Choose this place instead."""
+        """Replace the choice by this place."""
 
     def is_free(self) -> bool:
-        """Whether anything else could have been chosen."""
+        """Whether there was any other option."""
         return True
 
     @property
     def is_sent_elsewhere(self) -> bool:
-        """Whether the experimenter has named another place than the one that was chosen."""
+        """Whether the experimenter named a place other than the chosen one."""
         choice, place = self.steering.choice, self.steering.instead
         return choice is not None and place not in ("", choice.place)
 
     def initialise(self) -> None:
-        """Wait only if choices are held."""
+        """Wait only if choices are held, and there is another option."""
         self.feedback_message = ""
         if self.steering.holds and self.is_free():
             super().initialise()
 
     def start(self) -> int:
-        """Show what was chosen."""
+        """Publish the choice."""
         self.steering.wait(self.choice())
         return self.context.standby.start()
 
     def update(self) -> Status:
-        """Go on when it is let go, or replaced."""
+        """Go on if it was released or replaced."""
         if not self.is_under_way:
             return Status.SUCCESS
         choice, place = self.steering.choice, self.steering.instead
@@ -79,31 +78,31 @@ class HoldChoice(Action):
         return super().update() if self.steering.holds else self.succeed(choice.place)
 
     def ended(self, result: Result) -> Status:
-        """Nothing ends it but what the experimenter does."""
+        """Never expected: only the experimenter ends the wait."""
         return self.out_of_time()
 
     def out_of_time(self) -> Status:
-        """Go on as it was chosen."""
+        """Go on with the choice as it is."""
         return self.succeed(f"nobody has let it go for {HELD_S:g} s")
 
     def cancel(self, request: int) -> None:
-        """Nothing waits any more."""
+        """Withdraw the choice."""
         self.context.standby.cancel(request)
         self.steering.wait(None)
 
     def doing(self) -> str:
-        """Nobody is told that it is held."""
+        """Do not mention that the choice is held."""
         return "think about where to go"
 
 
 class HoldWhereToLook(HoldChoice):
-    """Where the robot is to look next may be anywhere.
+    """Holds the choice where to look next; any place will do.
 
     Reads and writes search.candidate and search.candidates.
     """
 
     def choice(self) -> Choice:
-        """The candidate at hand."""
+        """The current candidate."""
         assert self.situation.search.candidate
         return Choice(For.LOOK, self.situation.search.candidate.place)
 
@@ -113,21 +112,21 @@ class HoldWhereToLook(HoldChoice):
 
 
 class HoldGoal(HoldChoice):
-    """Where a thing is to go has to be where the person said: of a room, any furniture will do.
+    """Holds the choice of the goal; the person named a room, so only its furniture will do.
 
     Reads and writes request.goal.
     """
 
     def is_free(self) -> bool:
-        """One place is no choice."""
+        """Only if more than one goal is left."""
         return len(self._left()) > 1
 
     def choice(self) -> Choice:
-        """Among those of them that were not tried in vain."""
+        """The current goal, among those that were not tried in vain."""
         return Choice(For.PUT, self.situation.request.goal, self._left())
 
     def adopt(self, place: str) -> None:
-        """Take it there."""
+        """Use this goal."""
         self.situation.request.goal = place
 
     def _left(self) -> tuple[str, ...]:
@@ -136,22 +135,22 @@ class HoldGoal(HoldChoice):
 
 
 class HoldSurface(HoldChoice):
-    """Where the robot gets rid of a thing may be any furniture, if it was its own choice.
+    """Holds the choice where to put something away; any furniture will do, as the robot chose.
 
     Reads and writes hand.surface.
     """
 
     def choice(self) -> Choice:
-        """The surface at hand."""
+        """The current surface."""
         return Choice(For.PUT, self.situation.hand.surface)
 
     def adopt(self, place: str) -> None:
-        """Put it there."""
+        """Use this surface."""
         self.situation.hand.surface = place
 
 
 def each_untried(places: Sequence[str], taken: Callable[[], str]) -> Iterator[str]:
-    """One place after the other; which one was taken in its place, may be known afterwards."""
+    """Yields the places not tried yet; after each, `taken` tells which place was used."""
     tried: set[str] = set()
     while left := [place for place in places if place not in tried]:
         yield left[0]

@@ -1,7 +1,7 @@
-"""Where may it be? The ontology's one place, else the language model, else ask.
+"""Where may the thing be? The ontology's only place, else the language model, else the person.
 
-The flow of the paper's section "Integrated use of ontological knowledge base and LLM", with its
-consistency verification spelled out as behaviours, so that every step is seen in the log.
+The flow of the paper's section "Integrated use of ontological knowledge base and LLM". Each step of
+its consistency verification is a behaviour of its own, so that the log shows it.
 """
 
 from py_trees.behaviour import Behaviour
@@ -17,7 +17,7 @@ from trees.person import AskWhere
 
 
 def resolve_location(context: MissionContext) -> Behaviour:
-    """An object -> `situation.search.candidates`, likeliest first, with who said so."""
+    """Find places for the object: writes `situation.search.candidates`, likeliest first."""
     sources: list[Behaviour] = [OntologyKnowsPlace("ontology knows one place", context)]
     if context.model is not None:
         elicit = rank_places if context.parameters.elicit == "rank" else generate_places
@@ -26,12 +26,12 @@ def resolve_location(context: MissionContext) -> Behaviour:
 
 
 def rank_places(context: MissionContext) -> Behaviour:
-    """The model scores the known places: it cannot invent any."""
+    """The model scores the known places, so it cannot invent any."""
     return RankPlaces("llm ranks places", context)
 
 
 def generate_places(context: MissionContext) -> Behaviour:
-    """The model writes a list, of which only real places are kept (the paper's way)."""
+    """The model writes a list, of which only existing places are kept (the paper's method)."""
     begin = BeginConsultation("begin", context)
     return sequence(
         "llm lists places",
@@ -57,7 +57,7 @@ def generate_places(context: MissionContext) -> Behaviour:
 
 
 def existence_check(context: MissionContext) -> Behaviour:
-    """Keep what exists, expand rooms into their furniture; fail if nothing is left."""
+    """Keep the places that exist, expand rooms into furniture; fail if nothing is left."""
     thought = context.situation
 
     def choose(room: str) -> None:
@@ -86,12 +86,12 @@ def existence_check(context: MissionContext) -> Behaviour:
 
 
 class OntologyKnowsPlace(Step):
-    """Succeeds if the ontology has exactly one default location for the object, still unvisited."""
+    """Succeeds if the object has exactly one default location, which was not visited yet."""
 
     source = Source.ONTOLOGY
 
     def update(self) -> Status:
-        """Look it up; several are kept to narrow down what the model may say."""
+        """Look it up; if there are several, keep them to restrict what the model may say."""
         assert self.situation.request.object
         usual = self.context.knowledge.usual_places(self.situation.request.object)
         if len(usual) == 1 and usual[0] in self.situation.search.looks.visited:
@@ -106,19 +106,19 @@ class OntologyKnowsPlace(Step):
 
 
 class BeginConsultation(Step):
-    """Forgets what earlier exchanges left."""
+    """Discards the results of earlier exchanges."""
 
     def update(self) -> Status:
-        """Begin with nothing."""
+        """Reset the consultation."""
         self.situation.search.consultation = Consultation()
         return Status.SUCCESS
 
 
 class ReadReply(Step):
-    """Preprocessing: the names in the reply, if it keeps to the output format."""
+    """Preprocessing: extracts the names from a reply in the output format; else fails."""
 
     def update(self) -> Status:
-        """Read it."""
+        """Parse the reply."""
         assert self.context.advice
         names = self.context.advice.lister.read(self.situation.search.consultation.reply)
         if names is None:
@@ -128,7 +128,7 @@ class ReadReply(Step):
 
 
 class VerifyNames(Step):
-    """Existence check: unknown names are dropped, rooms are set aside to be expanded."""
+    """Existence check: drops unknown names, and sets rooms aside to be expanded."""
 
     takes_rooms = True
 
@@ -153,13 +153,13 @@ class VerifyNames(Step):
 
 
 class VerifyFurniture(VerifyNames):
-    """Existence check of a room's furniture: rooms are not expanded a second time."""
+    """Existence check of a room's furniture; rooms are not expanded a second time."""
 
     takes_rooms = False
 
 
 class AdoptFurniture(Step):
-    """What passed, and was not looked at yet, becomes the list of candidates."""
+    """The verified places that were not visited yet become the candidates."""
 
     source = Source.LLM
 

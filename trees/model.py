@@ -1,4 +1,4 @@
-"""Leaves that talk to the language model."""
+"""Leaves that call the language model."""
 
 from abc import abstractmethod
 from dataclasses import replace
@@ -24,7 +24,7 @@ class ModelAction(Action):
     activity = Activity.THINKING
 
     def __init__(self, name: str, context: MissionContext) -> None:
-        """Give the model as long as the parameters allow."""
+        """The model may take as long as the parameters allow."""
         super().__init__(name, context, context.parameters.model_s)
         assert context.model is not None
         assert context.advice is not None
@@ -33,59 +33,59 @@ class ModelAction(Action):
         self._began: float | None = None
 
     def doing(self) -> str:
-        """It thinks."""
+        """To follow "I"."""
         return "ask the language model"
 
     def initialise(self) -> None:
-        """Mark the time, and start."""
+        """Note the time, and send the request."""
         self._began = self.context.clock.now()
         super().initialise()
 
     def terminate(self, new_status: Status) -> None:
-        """Count the time spent thinking."""
+        """Add the time since then to the thinking time."""
         if self._began is not None:
             self.situation.model.thinking_time_s += self.context.clock.now() - self._began
             self._began = None
         super().terminate(new_status)
 
     def cancel(self, request: int) -> None:
-        """Stop the model."""
+        """Cancel the request."""
         self.model.cancel(request)
 
     def failed(self, result: Result) -> Status:
-        """Warn the person that the model is of no help, and why; then go on without."""
+        """Warn the person that the model does not help, and why; go on without it."""
         why = why_of(result)
         self._warn(why)
         return self.fail(why)
 
     def out_of_time(self) -> Status:
-        """Say that the model did not answer."""
+        """Warn the person that the model did not answer in time."""
         self._warn(f"nothing came within {self._patience_s:g} s")
         return self.fail(f"the language model did not answer within {self._patience_s:g} s")
 
     def _warn(self, why: str) -> None:
-        """Once a mission."""
+        """Warn once for each mission."""
         if not self.situation.model.failure:
             self.situation.model.failure = why
             tell(self.context, sentence(f"My language model does not answer: {why}"))
 
 
 class RankPlaces(ModelAction):
-    """Has every allowed place scored, and keeps the likeliest."""
+    """Has the model score every allowed place, and keeps the likeliest."""
 
     @property
     def among(self) -> tuple[str, ...]:
-        """The places that are allowed; all are, if there are none."""
+        """The allowed places; empty if all are allowed."""
         return self.situation.search.default_locations
 
     def start(self) -> int:
-        """Ask for the scores."""
+        """Request the scores."""
         assert self.situation.request.object
         ranking = self.advice.ranker.ranking(self.situation.request.object, self.among)
         return self.model.rank(ranking)
 
     def ended(self, result: Result) -> Status:
-        """Keep as many as are worth a visit; all of them if the ontology named them."""
+        """Keep the `top_k` likeliest places; all of them if the ontology named them."""
         if not isinstance(result, Scored):
             return self.failed(result)
         ranked = self.situation.search.not_visited(self.advice.ranker.ranked(result))
@@ -98,14 +98,14 @@ class RankPlaces(ModelAction):
 
 
 class Chat(ModelAction):
-    """Asks the model to write, and keeps the reply."""
+    """Requests a text from the model, and keeps the reply."""
 
     @abstractmethod
     def request(self) -> ChatRequest:
-        """What to ask."""
+        """The request to send."""
 
     def start(self) -> int:
-        """Ask."""
+        """Send the request."""
         return self.model.chat(self.request())
 
     def ended(self, result: Result) -> Status:
@@ -118,29 +118,29 @@ class Chat(ModelAction):
 
     @property
     def thing(self) -> str:
-        """Name of the object that is looked for."""
+        """Name of the object that is searched."""
         assert self.situation.request.object
         return self.situation.request.object
 
 
 class Inquire(Chat):
-    """`general_pos` where the ontology knows no place, `multiple_pos` where it knows several."""
+    """Prompt `general_pos` if the ontology knows no place, `multiple_pos` if it knows several."""
 
     def request(self) -> ChatRequest:
-        """Ask for the likely places."""
+        """Ask for likely places."""
         return self.advice.lister.inquiry(self.thing, self.situation.search.default_locations)
 
 
 class Summarize(Chat):
-    """`summarize`: put the last reply into the output format."""
+    """Prompt `summarize`: put the last reply into the output format."""
 
     def request(self) -> ChatRequest:
-        """Ask for the same in the right form."""
+        """Ask for the same in the output format."""
         return self.advice.lister.summarize(self.thing, self.situation.search.consultation.reply)
 
 
 class Again(Chat):
-    """`again`: no place of the last reply exists."""
+    """Prompt `again`: no place in the last reply exists."""
 
     def request(self) -> ChatRequest:
         """Ask for places from the list."""
@@ -148,10 +148,10 @@ class Again(Chat):
 
 
 class AskFurniture(Chat):
-    """`furniture`: a room was named; which furniture in it?"""
+    """Prompt `furniture`: the reply named a room; which furniture in it?"""
 
     def request(self) -> ChatRequest:
-        """Ask for the room at hand."""
+        """Ask about the current room."""
         room = self.situation.search.consultation.room
         return self.advice.lister.furniture(
             self.thing, room, self.situation.search.default_locations
@@ -159,14 +159,14 @@ class AskFurniture(Chat):
 
 
 class RankKinds(ModelAction):
-    """Has the kinds of command scored; what to do it with, and where, is what the words name."""
+    """Has the model score the kinds of command; the thing and the place come from the words."""
 
     def start(self) -> int:
-        """Ask for the scores."""
+        """Request the scores."""
         return self.model.rank(self.advice.reader.ranking(self.situation.request.words))
 
     def ended(self, result: Result) -> Status:
-        """Keep the likeliest."""
+        """Make a command of the likeliest kind."""
         if not isinstance(result, Scored):
             return self.failed(result)
         kind, words = self.advice.reader.ranked(result), self.situation.request.words
@@ -182,7 +182,7 @@ class RankKinds(ModelAction):
 class WriteCommand(ModelAction):
     """Has the model write what is to be done, with things and places that exist.
 
-    The grammar reads that, so that it means the same as if the person had said it so.
+    The grammar parses the reply, so it means the same as if the person had said it.
     """
 
     def start(self) -> int:
@@ -190,7 +190,7 @@ class WriteCommand(ModelAction):
         return self.model.chat(self.advice.reader.inquiry(self.situation.request.words))
 
     def ended(self, result: Result) -> Status:
-        """Read and verify the reply."""
+        """Parse and verify the reply."""
         if not isinstance(result, Replied):
             return self.failed(result)
         plain = self.advice.reader.read(result.text)

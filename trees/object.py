@@ -1,7 +1,7 @@
-"""Which thing is meant? The ontology says, or whose home it is, else the person is asked.
+"""Which object is meant? The ontology says, or a preference of the person; else they are asked.
 
-The language model never is: which fruit someone likes is a matter of that person, not of general
-knowledge (paper, section "Integrated use of ontological knowledge base and LLM").
+The language model is never asked: which fruit someone likes is a matter of that person, not of
+general knowledge (paper, section "Integrated use of ontological knowledge base and LLM").
 """
 
 from py_trees.behaviour import Behaviour
@@ -18,7 +18,7 @@ from trees.telling import tell
 
 
 def resolve_object(context: MissionContext) -> Behaviour:
-    """Words for a thing -> `situation.request.object`."""
+    """Find the object that the words mean: writes `situation.request.object`."""
     return fallback(
         "which object",
         known_object(context),
@@ -38,9 +38,10 @@ def resolve_object(context: MissionContext) -> Behaviour:
 
 
 def see_which_is_there(context: MissionContext) -> Behaviour:
-    """Of several things that may be meant, one that is where the words say; nothing if no word is.
+    """If several objects fit and the words name a place: look there, and take one that is there.
 
-    So "a ball from the desk" is a ball that is there.
+    So "a ball from the desk" is a ball that is on the desk. Fails without looking if no place is
+    named.
     """
     request = context.situation.request
 
@@ -56,7 +57,7 @@ def see_which_is_there(context: MissionContext) -> Behaviour:
 
 
 def known_object(context: MissionContext) -> Behaviour:
-    """What can be told without a question."""
+    """Find the object without a question."""
     request = context.situation.request
 
     def held() -> list[str]:
@@ -71,16 +72,16 @@ def known_object(context: MissionContext) -> Behaviour:
 
 
 class TakeOneThatIsThere(Step):
-    """Succeeds if one of the things is there; of several, any will do, or a certain one is meant.
+    """Succeeds if one of the objects is there; with several, only if the words leave the choice.
 
-    Reads survey.seen; writes request.object, or request.options; search.looks forgets that place,
-    so that it is looked at again.
+    Reads survey.seen; writes request.object, or request.options. Removes the place from
+    search.looks, so that it is looked at again.
     """
 
     source = "eyes"
 
     def update(self) -> Status:
-        """Say it if there is none: then the person is asked."""
+        """If none is there, say so; then the person is asked."""
         request, search = self.situation.request, self.situation.search
         assert request.command
         found = self.situation.survey.found
@@ -97,13 +98,13 @@ class TakeOneThatIsThere(Step):
 
 
 class HeldIsMeant(Step):
-    """Succeeds if something is in the hand, of which nobody has to say the name.
+    """Succeeds if something is in the hand: the words mean that, whatever it is.
 
     Reads hand.in_hand; writes request.object.
     """
 
     def update(self) -> Status:
-        """It is that."""
+        """Use the held thing."""
         held = self.situation.hand.in_hand
         if held is None:
             return self.fail("my hand is empty")
@@ -120,7 +121,7 @@ class OntologyKnowsObject(Step):
     source = Source.ONTOLOGY
 
     def update(self) -> Status:
-        """Look the words up."""
+        """Look the words up in the ontology."""
         command = self.situation.request.command
         assert command
         knowledge = self.context.knowledge
@@ -133,7 +134,7 @@ class OntologyKnowsObject(Step):
 
 
 class PersonPrefersOne(Step):
-    """Succeeds if the ontology knows that this person prefers one of the things that fit.
+    """Succeeds if the ontology knows that the person prefers exactly one of the options.
 
     Reads request.options; writes request.object.
     """
@@ -150,9 +151,10 @@ class PersonPrefersOne(Step):
 
 
 class GuessName(Step):
-    """Succeeds if one known name is in the words, or is so near that they may be a slip of it.
+    """Succeeds if the words contain one known name, or may be a misspelling of one.
 
-    If several are, the person has to choose: the robot does one thing at a time.
+    If they contain several names, the person has to choose: the robot does one thing at a time.
+
     Reads request.command; writes request.guess, or request.options and request.several.
     """
 

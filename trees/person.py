@@ -1,4 +1,4 @@
-"""Leaves that tell the person how it goes, and ask them for places."""
+"""Leaves that report to the person, and ask them for places."""
 
 from py_trees.common import Status
 
@@ -20,20 +20,20 @@ class AskForPlace(Ask):
     """Asks for a place of the home."""
 
     def once_more(self, text: str) -> str:
-        """The question again, for who named none: with the furniture that there is."""
+        """The question with the list of furniture, for when the last answer named no place."""
         places = (self.context.say.the(place.name) for place in self.context.knowledge.places())
         no_place = "" if self._attended else "I know no such place. "
         return f"{no_place}{text} I know: {', '.join(places)}."
 
     def _attend_to(self, said: Said, words: str) -> bool:
-        """Say so, if nothing can be put there."""
+        """If nothing can be put where the answer says, tell so."""
         if not (goal := self._not_to_be_put(words)):
             return super()._attend_to(said, words)
         tell(self.context, f"{only_on_furniture(as_said(words, goal))}.")
         return True
 
     def _not_to_be_put(self, answer: str) -> str:
-        """Where it would have the thing put, if nothing can be put so; empty if it can."""
+        """The part of the answer that says where, if nothing can be put there; else empty."""
         puts = self.question().kind == QuestionKind.WHERE_TO_PUT
         return not_to_be_put(self.context, answer) if puts else ""
 
@@ -45,7 +45,7 @@ class AskWhere(AskForPlace):
     """
 
     def question(self) -> Question:
-        """Say where it was looked for, if anywhere."""
+        """Ask, and say where the robot has looked so far."""
         name, say = self.situation.request.object or "", self.context.say
         text = f"Where {say.is_(name)} {say.the(name)}?"
         if so_far := self.situation.search.so_far(name, say):
@@ -55,7 +55,7 @@ class AskWhere(AskForPlace):
         return Question(QuestionKind.WHERE_IS, name, text)
 
     def understood(self, answer: str) -> bool:
-        """Any places that exist become the candidates."""
+        """All places in the answer that exist become candidates."""
         places = places_in(self.context, answer)
         if places:
             assert self.situation.request.object
@@ -64,19 +64,19 @@ class AskWhere(AskForPlace):
         return bool(places)
 
     def unresolved(self) -> str:
-        """Say what was tried."""
+        """Say where the robot has looked so far."""
         name, say = self.situation.request.object or "", self.context.say
         return self.situation.search.so_far(name, say) or f"I do not know where {say.are(name)}"
 
 
 class AskWhereToPut(AskForPlace):
-    """Asks where what is in the hand may be put down, when it found no room for it.
+    """Asks where to put down what is in the hand, after no place had room for it.
 
     Reads hand.unplaced; writes hand.surfaces.
     """
 
     def question(self) -> Question:
-        """Say where there was none."""
+        """Ask, and say which places had no room."""
         held = self.situation.hand.in_hand or ""
         text = f"Where shall I put {self.context.say.the(held)}?"
         first = f"{beginning(self.unresolved())}. {text}"
@@ -84,24 +84,24 @@ class AskWhereToPut(AskForPlace):
         return Question(QuestionKind.WHERE_TO_PUT, held, text)
 
     def understood(self, answer: str) -> bool:
-        """Any furniture that exists will do."""
+        """Accept any furniture that exists."""
         unfit = self._not_to_be_put(answer)
         self.situation.hand.surfaces = () if unfit else places_in(self.context, answer)
         return bool(self.situation.hand.surfaces)
 
     def unresolved(self) -> str:
-        """Say where it was tried."""
+        """Say which places had no room."""
         return self.situation.hand.not_put_down(self.context.say)
 
 
 class Announce(Step):
-    """Tells where the robot is going to look, and who says so.
+    """Tells where the robot is going to look, and which source says so.
 
     Reads search.candidates.
     """
 
     def update(self) -> Status:
-        """Say it."""
+        """Tell it."""
         candidates = self.situation.search.candidates
         name, say = self.situation.request.object or "", self.context.say
         places = ", then ".join(say.at_each(candidate.place for candidate in candidates))
@@ -117,16 +117,16 @@ class Report(Step):
     """
 
     def __init__(self, name: str, context: MissionContext, text: str) -> None:
-        """`text` may use {the_object}, {is_}, {it}, {at}, {place}, {put} and {goal}.
+        """`text` may contain {the_object}, {is_}, {it}, {at}, {place}, {put} and {goal}.
 
-        As in "{The_object} {is_} {at}": the mug is on the desk in the bedroom; {place} is the same
-        without "on", {put} is where it was put down.
+        For example, "{The_object} {is_} {at}" is "The mug is on the desk in the bedroom". {place}
+        is the same place without the preposition; {put} is where the thing was put down.
         """
         super().__init__(name, context)
         self._text = text
 
     def update(self) -> Status:
-        """Say it, and keep it as the mission's reason."""
+        """Tell it, and keep it as the reason of the outcome."""
         found, hand, say = self.situation.search.found, self.situation.hand, self.context.say
         name = self.situation.request.object or ""
         the = say.the(name) if name else ""
@@ -148,13 +148,13 @@ class Report(Step):
 
 
 class Apologise(Step):
-    """Tells why it was not done.
+    """Tells why the task was not done.
 
     Writes ending.reason.
     """
 
     def update(self) -> Status:
-        """Say why the last thing failed that was tried."""
+        """Give the reason of the last failure."""
         self.situation.ending.tell(self.why_before())
         why = self.situation.request.remark or f"Sorry: {self.situation.ending.why}"
         tell(self.context, sentence(why))
@@ -162,7 +162,7 @@ class Apologise(Step):
 
 
 def who_says(context: MissionContext, source: str, **others: tuple[str, str]) -> str:
-    """Who says where the thing is, as a clause; `others` say it of one thing, and of several."""
+    """Who says where the thing is, as a clause; `others` adds (singular, plural) clauses."""
     name, say = context.situation.request.object or "", context.say
     says = {
         **(SAYS_OF_SEVERAL if say.agree(name, "", "are") else SAYS),

@@ -1,4 +1,4 @@
-"""Who knows where it is without looking: the robot's memory, and the sources that a person adds."""
+"""The sources that know a place without looking: the robot's memory, and those a user adds."""
 
 from dataclasses import dataclass
 
@@ -14,16 +14,16 @@ from trees.nodes import Step
 
 
 class Recall(Step):
-    """Succeeds if a knowledge source names a place of this home that was not looked at yet."""
+    """Succeeds if a source names a place of this home that was not visited yet."""
 
     def __init__(self, name: str, context: MissionContext, source: PlaceSource) -> None:
-        """Ask this source."""
+        """`source` is the one to ask."""
         super().__init__(name, context)
         self.knows = source
         self.source = source.name
 
     def update(self) -> Status:
-        """Recall it."""
+        """Make its places the candidates."""
         assert self.situation.request.object
         places = dict.fromkeys(self.knows.places_of(self.situation.request.object))
         here = (place for place in places if is_here(self.context, place))
@@ -34,7 +34,7 @@ class Recall(Step):
         return self.succeed(", ".join(candidate.place for candidate in new))
 
     def worth_a_visit(self, candidates: tuple[Candidate, ...]) -> tuple[Candidate, ...]:
-        """Those where it was not looked for."""
+        """The candidates that were not visited yet."""
         return self.situation.search.not_visited(candidates)
 
     def unknown(self, thing: str) -> str:
@@ -43,7 +43,7 @@ class Recall(Step):
 
 
 def is_here(context: MissionContext, place: str) -> bool:
-    """Whether this home has the place; the table by the person is in no home file."""
+    """Whether the place is in this home; the delivery table is, though no home file lists it."""
     return place == DELIVERY or context.knowledge.has_place(place)
 
 
@@ -56,21 +56,21 @@ class Memory:
     says = SAYS[Source.MEMORY]
 
     def places_of(self, name: str) -> tuple[str, ...]:
-        """Where it was last, as far as it is known."""
+        """Where the thing was last, as far as it is known."""
         return self.facts.places_of(name)
 
 
 class MemoryKnowsPlaces(Recall):
-    """Succeeds if the thing was seen somewhere in this home, or was said to be there."""
+    """Succeeds if the thing was seen in this home, or said to be there."""
 
     def __init__(self, name: str, context: MissionContext) -> None:
-        """Ask the robot's own memory."""
+        """The source is the robot's own memory."""
         super().__init__(name, context, Memory(context.facts))
 
     def worth_a_visit(self, candidates: tuple[Candidate, ...]) -> tuple[Candidate, ...]:
-        """All: it forgets by itself where the thing was looked for in vain."""
+        """All: the memory already forgets where the thing was looked for in vain."""
         return candidates
 
     def unknown(self, thing: str) -> str:
-        """It was not seen."""
+        """That it was not seen."""
         return f"I have not seen {thing}"

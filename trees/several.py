@@ -1,4 +1,4 @@
-"""Several things in one task, one of several, or a deed on a condition: done part by part."""
+"""Tasks in parts: with several things, with one of several, or with a condition."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -18,10 +18,10 @@ from trees.wholes import without_condition
 
 
 def several(context: MissionContext) -> Behaviour:
-    """A task with more than one thing -> the parts of it, on the agenda.
+    """Split a task into parts, which go on the agenda.
 
-    Where they are to go has to be known before anything is done. Where a place is named that they
-    are at, the robot goes there to see which things there are.
+    The goal has to be known before anything is done. If the words say where the things are, the
+    robot first goes there to see which ones there are.
     """
     request = context.situation.request
 
@@ -46,21 +46,21 @@ def several(context: MissionContext) -> Behaviour:
 
 
 def is_in_parts(context: MissionContext) -> bool:
-    """Whether the task at hand has to be done in parts."""
+    """Whether the current task has to be done in parts."""
     command = context.situation.request.command
     return command is not None and (command.is_plural or bool(not_seen_yet(context)))
 
 
 class OnACondition(Step):
-    """Succeeds if it is a deed on a condition; that is looked into first.
+    """Succeeds if the task has a condition; the first part is to check it.
 
-    So it is with a thing beside which another one is to be put: it has to be found first.
+    A thing that is to be put next to another one is such a task: the other one is found first.
 
     Reads request.command; writes agenda.wholes and agenda.tasks.
     """
 
     def update(self) -> Status:
-        """Without a place where to look first, trying to do it shows whether there is one."""
+        """Split the task; if the condition has no check of its own, the first part is the deed."""
         command = self.situation.request.command
         assert command
         if not command.conditional and (beside := not_seen_yet(self.context)):
@@ -77,13 +77,13 @@ class OnACondition(Step):
 
 
 class EachThing(Step):
-    """Succeeds if there are such things; as many of them as are wanted become tasks.
+    """Succeeds if there are such things; makes tasks of as many as are wanted.
 
     Reads request.command and survey.seen; writes agenda.wholes and agenda.tasks.
     """
 
     def update(self) -> Status:
-        """Of names that were given, each; of a class, each of its things, or those seen."""
+        """The parts are the given names, else the things that were seen, else all of the class."""
         command, found = self.situation.request.command, self.situation.survey.found
         assert command
         why = not_seen(self.context) if self.situation.survey.seen else ""
@@ -104,10 +104,10 @@ class EachThing(Step):
         return self.succeed(", ".join(part.target for part in parts))
 
     def _meant(self, command: Command) -> Sequence[str]:
-        """All that the words mean.
+        """All things that the words mean.
 
-        Of what is to be put back, what was taken, if any of it was; of "the fruits", those that
-        were just seen, if any were.
+        For "put back", those that the robot took, if there are any; for "the fruits", those that
+        were just seen, if there are any.
         """
         names, nearer = things_meant(self.context, command), list[str]()
         if command.kind == CommandKind.PUT_BACK:

@@ -1,4 +1,4 @@
-"""Look around at places: what is there? For questions, and for tasks with what is somewhere."""
+"""Look around at places to see what is there: for questions, and for tasks with several things."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -28,9 +28,9 @@ from trees.unknown import nearest, unresolved
 
 
 def survey(context: MissionContext, enough: Callable[[], bool] = lambda: False) -> Behaviour:
-    """Words for things and places -> `situation.survey`, until it is `enough` or all was seen.
+    """Look at the places in the words until it is `enough`, or all is seen.
 
-    A place that cannot be reached is left out; it fails if none could be looked at.
+    Writes `situation.survey`. A place that cannot be reached is skipped; if all are, it fails.
     """
     situation = context.situation
 
@@ -56,7 +56,7 @@ def survey(context: MissionContext, enough: Callable[[], bool] = lambda: False) 
 
 
 def look_at_all(context: MissionContext) -> Behaviour:
-    """Go to the place at hand and see all that is there, if that can be."""
+    """Drive to the current place and look at all of it, if possible; always succeeds."""
     situation = context.situation
 
     def views() -> range:
@@ -89,13 +89,13 @@ def look_at_all(context: MissionContext) -> Behaviour:
 
 
 class SeeAll(SeeTarget):
-    """Takes a picture and keeps all that is surely in it.
+    """Takes a picture and keeps all that is in it with enough confidence.
 
     Reads search.candidate and search.view; writes survey.seen and search.looks.
     """
 
     def ended(self, result: Result) -> Status:
-        """What is on furniture behind this place counts as there."""
+        """Note each thing and its place, which may be other furniture behind this place."""
         search, survey = self.situation.search, self.situation.survey
         assert search.candidate
         if not isinstance(result, Saw):
@@ -111,13 +111,13 @@ class SeeAll(SeeTarget):
 
 
 class RememberWhatIsGone(Step):
-    """What was believed to be here and was not seen is here no more; all of it was looked at.
+    """Remembers that what was believed to be here, and was not seen, is gone; always succeeds.
 
     Reads search.candidate, search.looks and survey.seen.
     """
 
     def update(self) -> Status:
-        """Only what was looked at can be known."""
+        """Conclude only if every view of the place was seen."""
         search, seen = self.situation.search, self.situation.survey.seen
         assert search.candidate
         place, facts = search.candidate.place, self.context.facts
@@ -131,7 +131,7 @@ class RememberWhatIsGone(Step):
 
 
 class KnowsWhatToLookFor(Step):
-    """Succeeds if the words name known things; with none named, it is about everything.
+    """Succeeds if the words name known things; without any, the survey is about everything.
 
     Reads request.command; writes survey.about.
     """
@@ -151,9 +151,9 @@ class KnowsWhatToLookFor(Step):
 
 
 class KnowsWhereToLook(Step):
-    """Succeeds if the home has the places that the words name; with none named, it is everywhere.
+    """Succeeds if the words name places of this home; without any, looks everywhere.
 
-    The table by the person is a part of that.
+    "Everywhere" includes the delivery table.
 
     Reads request.command and survey.about; writes search.candidates.
     """
@@ -161,7 +161,7 @@ class KnowsWhereToLook(Step):
     source = Source.USER
 
     def update(self) -> Status:
-        """In the order in which what is asked about is seen soonest."""
+        """Order the places so that the things are seen as soon as possible; tell the person."""
         context, command = self.context, self.situation.request.command
         assert command
         places = places_in(context, command.source) if command.source else ()
@@ -190,7 +190,7 @@ class SawSomething(Step):
 
 
 def not_seen(context: MissionContext) -> str:
-    """Which places, or parts of them, were not seen, and why, as a clause; empty if all was."""
+    """Which places were not seen, or not all of them, and why, as a clause; empty if all were."""
     looks, say = context.situation.search.looks, context.say
     seen = (p for p in context.situation.survey.seen if p not in looks.unreached)
     in_part = {p: looks.unseen.get(p, "") for p in seen if not looks.all_without(p)}
@@ -216,7 +216,7 @@ def found_where(found: Mapping[str, str], say: Wording) -> str:
 
 
 def nothing_there(context: MissionContext) -> str:
-    """That none of what was asked for is where the robot has looked, as a clause."""
+    """That none of the things is where the robot looked, as a clause."""
     command = context.situation.request.command
     assert command
     is_about_all = command.target in ("", THING)
@@ -227,9 +227,10 @@ def nothing_there(context: MissionContext) -> str:
 
 
 def lengths_of(seen: Detection) -> tuple[float, ...]:
-    """How long a thing is along its own axes, by its visible surface (m); empty if not located.
+    """Lengths along the principal axes of the visible surface (m), longest first; empty if unknown.
 
-    A length is that of a bar whose points are spread as far: a square's is the same by any axes.
+    Each is the length of a uniform bar with the same variance: L = sqrt(12 var). For a square, it
+    is the same for any choice of axes.
     """
     count = len(seen.points)
     if count < 3:

@@ -1,4 +1,4 @@
-"""The tasks of a mission, one after the other: each has its own end; none is lost by another."""
+"""The tasks of a mission, one after the other; each has an outcome, and none is lost."""
 
 from collections.abc import Iterator
 
@@ -18,23 +18,22 @@ from trees.telling import sentence, tell
 
 
 class EachTask(Selector):
-    """A fallback that is gone through once for each task, going on within the same tick.
+    """A fallback that runs once for each task, and goes on to the next task within the same tick.
 
-    At each tick it is heard first what the person says. Then its children find out what there is to
-    do, if nothing is at hand. What is on the agenda when a task has ended is done next, whoever put
-    it there meanwhile; what is to be done `instead` of the task at hand, or what is taken back,
-    interrupts it, so that whatever it started is cancelled. A robot that cannot be reached any more
-    ends them all: neither other places nor other tasks are tried.
+    Each tick first hears the person. Then, if there is no task, the children find out what to do.
+    The agenda decides what comes next, whoever has added to it. A task is interrupted if it is
+    taken back, or if something is to be done `instead`: all that it started is cancelled. If the
+    robot becomes unreachable, all tasks end, and nothing else is tried.
     """
 
     def __init__(self, name: str, context: MissionContext, *ways: Behaviour) -> None:
-        """`ways` are what is tried for each task, until one succeeds; the last one always does."""
+        """`ways` are tried in order for each task, until one succeeds; the last one always does."""
         self._attend = hear_first(context)
         super().__init__(name, memory=True, children=[self._attend, stand_still(context), *ways])
         self._context = context
 
     def tick(self) -> Iterator[Behaviour]:
-        """Tick the task at hand, and the next ones as long as they are decided."""
+        """Tick the current task; whenever one is done, go on to the next one."""
         agenda = self._context.situation.agenda
         if self.status == Status.RUNNING:
             yield from self._attend.tick()
@@ -58,7 +57,7 @@ class EachTask(Selector):
                 return
 
     def _end_for_good(self) -> None:
-        """Say why nothing more can be done, once; what was under way has failed for that."""
+        """End all tasks with the reason, told once; open actions note it as their failure."""
         situation = self._context.situation
         for node in self.iterate():
             if isinstance(node, BodyAction) and node.is_under_way:
@@ -71,7 +70,7 @@ class EachTask(Selector):
         situation.end_task()
 
     def _goes_on(self) -> bool:
-        """Give up the task at hand; whether there is another."""
+        """Interrupt the current task and begin the next one; False if there is none."""
         situation = self._context.situation
         agenda = situation.agenda
         agenda.unsettled |= any(map(_handles, self.iterate()))
@@ -91,7 +90,7 @@ class EachTask(Selector):
 
 
 def stand_still(context: MissionContext) -> Behaviour:
-    """Of what was given up in the middle of a grasp, the fingers know more at rest."""
+    """After an interrupted grasp, stop the robot: at rest, the fingers tell what they hold."""
     agenda = context.situation.agenda
     return sequence(
         "stand still",

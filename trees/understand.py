@@ -1,4 +1,4 @@
-"""What is asked for? The grammar of commands says, else the language model and the person do."""
+"""What is asked for? The grammar parses the words, else the language model and the person."""
 
 from dataclasses import replace
 from itertools import chain
@@ -26,9 +26,9 @@ from trees.telling import in_one_sentence, tell
 
 
 def understand(context: MissionContext) -> Behaviour:
-    """Words -> `situation.request.command`, and `situation.agenda` if there is more to do.
+    """Parse the words: writes `situation.request.command`, and `situation.agenda` if there is more.
 
-    The next tasks need no reading: they come from the agenda.
+    Later tasks need no parsing: they come from the agenda.
     """
     request = context.situation.request
 
@@ -50,7 +50,7 @@ def understand(context: MissionContext) -> Behaviour:
 
 
 def let_the_model_read(context: MissionContext) -> Behaviour:
-    """The model chooses what may be meant, among what exists; the person has the last word."""
+    """The model guesses the command, among what exists; the person has to confirm it."""
     read: type[ModelAction] = RankKinds if context.parameters.elicit == "rank" else WriteCommand
     return sequence(
         "llm reads it",
@@ -61,7 +61,7 @@ def let_the_model_read(context: MissionContext) -> Behaviour:
 
 
 class TakeUp(Step):
-    """The task at hand is understood: it was on the agenda.
+    """Succeeds: the current task is a command from the agenda, which was parsed before.
 
     Reads request.command.
     """
@@ -69,13 +69,13 @@ class TakeUp(Step):
     source = "person"
 
     def update(self) -> Status:
-        """Name it."""
+        """Name the command in the log."""
         assert self.situation.request.command
         return self.succeed(named(self.situation.request.command))
 
 
 class ReadCommand(Step):
-    """Words -> commands, by the grammar of commands.
+    """Parses the words with the grammar of commands.
 
     Reads request.words; writes request.command and agenda.tasks, else request.remark.
     """
@@ -83,7 +83,7 @@ class ReadCommand(Step):
     source = "person"
 
     def update(self) -> Status:
-        """Read the words."""
+        """Parse; a reply that is no command may be explained in request.remark."""
         words, spoken = self.situation.request.words, self.situation.dialogue.spoken
         self.context.recorder.record(Utterance("person", words))
         holds = self.situation.hand.in_hand is not None
@@ -100,12 +100,12 @@ class ReadCommand(Step):
 
 
 class ReadPastSlips(Step):
-    """Words with a slip of the finger in them -> command, if it is about a known thing."""
+    """Parses words with typing errors, if the command is about known things."""
 
     source = "person"
 
     def update(self) -> Status:
-        """The word for the deed has to be like one, and so has the name."""
+        """Correct both the verb and the name."""
         words = self.situation.request.words
         if self.situation.request.remark:
             return self.fail("it was read")
@@ -128,7 +128,7 @@ class ReadPastSlips(Step):
         return self.succeed("; ".join(f"{c.kind} {c.target}" for c in chain.from_iterable(known)))
 
     def _known(self, target: str) -> str | None:
-        """The target if it is known, else the name that it is a slip of, if it is one."""
+        """The target if it is known, else the name that it may misspell; None if there is none."""
         knowledge = self.context.knowledge
         if target == HELD or knowledge.objects_named(target):
             return target
@@ -136,14 +136,15 @@ class ReadPastSlips(Step):
 
 
 class HasKnownName(Step):
-    """Succeeds if a known thing is named, so that there is something to do it with.
+    """Succeeds if the words name a known thing, so that there is something to act on.
 
-    What the grammar did read is not the model's to read otherwise: it may say what not to do. A
-    model that writes and cannot score, behind a server, may know other words for the things.
+    Fails if the grammar has a remark: the words were parsed, and may say what not to do. A model
+    that can only write, not score, is tried even without a name: it may know other words for the
+    thing.
     """
 
     def update(self) -> Status:
-        """Look for the names; a model that writes may still choose another."""
+        """Look for known names; they become request.guess."""
         if self.situation.request.remark:
             return self.fail("it was read")
         names = self.context.knowledge.names_in(self.situation.request.words)
@@ -155,10 +156,10 @@ class HasKnownName(Step):
 
 
 class ConfirmCommand(AskYesNo):
-    """Asks whether this is what was asked for: a model's reading is never simply done."""
+    """Asks the person to confirm the command: what a model has guessed is never simply done."""
 
     def question(self) -> Question:
-        """Say what would be done, all of it."""
+        """Say everything that would be done."""
         assert self.situation.request.command
         first, knowledge = self.situation.request.command, self.context.knowledge
         names = knowledge.names_in(first.target)
@@ -171,20 +172,20 @@ class ConfirmCommand(AskYesNo):
         return Question(QuestionKind.CONFIRM, first.target, text, objects)
 
     def agreed(self) -> None:
-        """The command stands."""
+        """Nothing to do: the command stands."""
 
     def understood(self, answer: str) -> bool:
-        """A yes or no with a wish behind it is more than that: "yes, to the desk"."""
+        """A yes or no with a wish is not taken as the answer: "yes, to the desk"."""
         said = self.context.interpreter.read(answer)
         if self._wish(said, answer):
             return False
         if isinstance(said, Request) and not said.later:
-            self._agrees = True  # "bring it", where that was asked about
+            self._agrees = True  # the command again, such as "bring it", is a yes
             return True
         return super().understood(answer)
 
     def _attend_to(self, said: Said, words: str) -> bool:
-        """Do what is wished in place of what was asked about, or beside it."""
+        """Handle the wish, which replaces the command or comes in addition."""
         if isinstance(said, Answer | Correction) and self.context.interpreter.only(words):
             tell(self.context, attend_to(self.context, words, f"I {self.doing()}."))
             return True
@@ -194,7 +195,7 @@ class ConfirmCommand(AskYesNo):
         return True
 
     def _wish(self, said: Said, words: str) -> Correction | None:
-        """What is wished beside a yes or no; None if nothing is, or what was asked about."""
+        """The wish in the answer; None if there is none, or it is what the question offered."""
         if isinstance(said, Unread):
             said = self.context.interpreter.after_yes(words)
         if isinstance(said, Request):
@@ -202,12 +203,12 @@ class ConfirmCommand(AskYesNo):
         return said if isinstance(said, Correction) else None
 
     def unresolved(self) -> str:
-        """It is not known what was asked for."""
+        """That it is unknown what was asked for."""
         return f"I am not sure what '{self.situation.request.words}' asks for"
 
 
 def named(command: Command) -> str:
-    """A command in the log: "bring mug from desk", "put mug to sofa"."""
+    """The command for the log: "bring mug from desk", "put mug to sofa"."""
     kind = command.kind.replace("_", " ")
     source = f"from {command.source}" if command.source else ""
     goal = f"to {command.goal}" if command.goal else ""
@@ -215,10 +216,10 @@ def named(command: Command) -> str:
 
 
 class NotUnderstood(Step):
-    """What nobody can read is the person's to say again; always fails."""
+    """Says that the words were not understood, or why they cannot be done; always fails."""
 
     def update(self) -> Status:
-        """Say what can be said; what was read, and is not to be or cannot be done, has a reason."""
+        """Give the remark, if there is one; else suggest examples."""
         self.situation.request.command = None
         self.situation.agenda.tasks.clear()
         if remark := self.situation.request.remark:

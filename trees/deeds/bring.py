@@ -25,7 +25,7 @@ class Bring(Deed):
     did = "brought"
 
     def ways(self, context: MissionContext) -> Iterable[Behaviour]:
-        """It may be on the delivery table already."""
+        """If it is on the delivery table already, say so; else bring it."""
         situation = context.situation
         yield sequence(
             "is there already",
@@ -47,13 +47,13 @@ class Bring(Deed):
 
 
 class ThereIndeed(Step):
-    """Succeeds if it was put down on the delivery table; else says where it is, and why.
+    """Succeeds if the thing was put down on the delivery table; else says where it is, and why.
 
     Reads hand.put_at and hand.unplaced.
     """
 
     def update(self) -> Status:
-        """What stands elsewhere was not brought."""
+        """Fail if it was put down elsewhere: that is not "brought"."""
         hand, say = self.situation.hand, self.context.say
         if hand.put_at == DELIVERY:
             return self.succeed()
@@ -63,7 +63,7 @@ class ThereIndeed(Step):
 
 
 def say_where(context: MissionContext) -> Behaviour:
-    """Tell that it is here, and where it was."""
+    """Tell that the thing is here, and where it was found."""
     return fallback(
         "say so",
         sequence(
@@ -76,7 +76,7 @@ def say_where(context: MissionContext) -> Behaviour:
 
 
 def deliver(context: MissionContext) -> Behaviour:
-    """Carry it and put it down; what falls on the way, or falls over there, is picked up once."""
+    """Carry the thing and put it down; if it falls, on the way or at the end, pick it up once."""
     return sequence(
         "deliver",
         fallback(

@@ -1,4 +1,4 @@
-"""Clear furniture: see what is on it, and put each thing where it belongs, or where one says."""
+"""Clear furniture: see what is on it; put each thing where it belongs, or where the person says."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
@@ -28,7 +28,7 @@ class Clear(Deed):
     did = "cleared away"
 
     def ways(self, context: MissionContext) -> Iterable[Behaviour]:
-        """Each thing that is seen there becomes a task of its own."""
+        """See what is there; each thing that is seen becomes a task of its own."""
         yield sequence(
             "clear",
             asked_to(context, self.kind),
@@ -49,12 +49,12 @@ class Clear(Deed):
         )
 
     def is_true(self, outcome: Outcome | TaskOutcome, whereabouts: str) -> bool:
-        """What was on it is somewhere else: the truth of its parts says so."""
+        """Left to the parts: each thing is a task, and the truth of that is judged."""
         return True
 
 
 def which_to_clear(context: MissionContext) -> tuple[str, ...]:
-    """The places that the words may mean, if one is meant and they leave open which."""
+    """The places that the words may mean if they name one but leave open which; else empty."""
     command = context.situation.request.command
     assert command
     one = not is_plural(command.source) and may_be_several(context, command.source)
@@ -68,14 +68,14 @@ class AskWhichToClear(Ask):
     """
 
     def question(self) -> Question:
-        """Offer them."""
+        """Offer the places."""
         options = which_to_clear(self.context)
         said = self.context.as_said(self._words())
         text = f"Which {said} do you mean: {self.context.say.any_of(options)}?"
         return Question(QuestionKind.WHERE_TO_GO, "", text, options)
 
     def understood(self, answer: str) -> bool:
-        """Any of those that were offered."""
+        """Take one of the places that were offered."""
         request = self.situation.request
         chosen = chosen_of(self.context, answer, which_to_clear(self.context))
         assert request.command
@@ -84,7 +84,7 @@ class AskWhichToClear(Ask):
         return bool(chosen)
 
     def unresolved(self) -> str:
-        """It is not known which."""
+        """Say which places the words may mean."""
         return may_be(self.context, self._words(), which_to_clear(self.context))
 
     def _words(self) -> str:
@@ -93,13 +93,13 @@ class AskWhichToClear(Ask):
 
 
 class PutEachAway(Step):
-    """Succeeds if there are things; each is to be put where it usually is, but not here.
+    """Succeeds if there are things: for each, adds the task to put it away.
 
     Reads request.command and survey.seen; writes agenda.wholes and agenda.tasks.
     """
 
     def update(self) -> Status:
-        """What has no other place goes to one that serves for all such things, which is told."""
+        """Make the tasks; things without a usual place share a spare one, and the robot says so."""
         command, found = self.situation.request.command, self.situation.survey.found
         assert command
         if not found:
@@ -117,12 +117,12 @@ class PutEachAway(Step):
         return self.succeed(", ".join(found))
 
     def _usual(self, name: str) -> list[str]:
-        """Where a thing usually is, but for what is to be cleared."""
+        """The usual places of a thing, without those that are being cleared."""
         seen = self.situation.survey.seen
         return [p for p in self.context.knowledge.usual_places(name) if p not in seen]
 
     def _spare(self, names: Sequence[str]) -> str:
-        """Where things that belong nowhere go: in the same room if possible; empty if nowhere."""
+        """A place for things without one, in the same room if possible; empty if there is none."""
         say, seen = self.context.say, self.situation.survey.seen
         rooms = {place.name: place.room for place in self.context.knowledge.places()}
         here = {rooms.get(place) for place in seen}
@@ -138,13 +138,13 @@ class PutEachAway(Step):
 
 
 class NothingThere(Step):
-    """Succeeds if it is clear already, surely.
+    """Succeeds if the place is already clear, and all of it was seen.
 
     Reads survey.seen and search.looks; writes ending.reason.
     """
 
     def update(self) -> Status:
-        """Say so."""
+        """Tell that it is clear."""
         if why := not_seen(self.context):
             return self.fail(f"{nothing_there(self.context)}; {why}")
         said = f"{nothing_there(self.context)}; it is clear."

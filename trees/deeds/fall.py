@@ -1,4 +1,4 @@
-"""What falls from the hand on the way: picked up again if it can be, else told."""
+"""What to do if the thing falls from the hand: pick it up again if possible, else tell."""
 
 from collections.abc import Iterator
 
@@ -12,7 +12,7 @@ from trees.nodes import Check, FirstOf, Step, sequence
 
 
 def pick_up_again(context: MissionContext, *spots: str, at_goal: bool = False) -> Behaviour:
-    """Look for what fell from the hand at these spots, `at_goal` first there, and pick it up."""
+    """Look for the fallen thing at these spots (`at_goal`: first at the goal), and pick it up."""
     situation = context.situation
 
     def views() -> Iterator[tuple[str, int]]:
@@ -39,7 +39,7 @@ class SayItFell(Step):
     """Says why it was not brought, and whether it fell or is still in the hand; always fails."""
 
     def update(self) -> Status:
-        """Put the clauses together, if there are two."""
+        """Join the clauses."""
         held, lost, why = (
             self.situation.hand.in_hand,
             self.situation.hand.lost,

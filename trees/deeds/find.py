@@ -21,7 +21,7 @@ class Find(Deed):
     did = "found"
 
     def ways(self, context: MissionContext) -> Iterable[Behaviour]:
-        """Come back with the news, unless there is more to do: then it is told on the way."""
+        """Come back and tell where it is; if there is more to do, tell it on the way."""
         agenda = context.situation.agenda
         yield sequence(
             "find on the way",
@@ -39,13 +39,13 @@ class Find(Deed):
         )
 
     def is_true(self, outcome: Outcome | TaskOutcome, whereabouts: str) -> bool:
-        """The robot went to the furniture that it names, and the thing is there; or it holds it."""
+        """True if it is on the furniture that the robot names and went to, or in its hand."""
         if outcome.location is None:
             return whereabouts == HAND
         return whereabouts == outcome.location and whereabouts in outcome.visited
 
     def how_far(self, context: MissionContext, why: str) -> str:
-        """Who asks where a thing is wants to know it, even if the robot cannot come back."""
+        """Where the thing is, even if the robot cannot come back: the person wants to know it."""
         found, say = context.situation.search.found, context.say
         if not found:
             return why

@@ -1,4 +1,4 @@
-"""Put a thing where the person says: on that furniture, or in that room; nowhere else is done."""
+"""Put a thing where the person says: on that furniture, or in that room; no other place counts."""
 
 from collections.abc import Iterable, Iterator
 
@@ -28,7 +28,7 @@ class Put(Deed):
     report = "I put {the_object} {put}."
 
     def ways(self, context: MissionContext) -> Iterable[Behaviour]:
-        """It may be there already."""
+        """If it is at the goal already, say so; else put it there."""
         situation = context.situation
 
         def is_there() -> bool:
@@ -55,9 +55,10 @@ class Put(Deed):
 
 
 def put_at_goal(context: MissionContext) -> Behaviour:
-    """A full hand -> `situation.hand.put_at`, one of the goals; else fails, and says what it did.
+    """Put what is in the hand at one of the goals; it is then `situation.hand.put_at`.
 
-    If no goal has room, the person may name another place; it is put there, but that is not done.
+    If no goal has room, ask the person for another place and put it there. That still counts as
+    failed, and the reason tells where the thing is.
     """
     situation = context.situation
 
@@ -87,7 +88,7 @@ def put_at_goal(context: MissionContext) -> Behaviour:
 
 
 def carry(context: MissionContext) -> Behaviour:
-    """Take it to the goal at hand and put it down; what falls is picked up once."""
+    """Take the thing to the current goal and put it down; if it falls, pick it up once."""
     hand = context.situation.hand
 
     def again(step: Behaviour, *, at_goal: bool) -> Behaviour:
@@ -115,13 +116,13 @@ def carry(context: MissionContext) -> Behaviour:
 
 
 class PutElsewhere(Step):
-    """Says that it was put down where the person said then; always fails, since it is not there.
+    """Tells that the thing is at another place, which the person named; always fails.
 
     Writes hand.elsewhere.
     """
 
     def update(self) -> Status:
-        """That was not what was asked for."""
+        """Fail with the place as the reason."""
         hand, say = self.situation.hand, self.context.say
         hand.elsewhere = hand.put_at
         it = say.it(self.situation.request.object or "")
@@ -129,10 +130,10 @@ class PutElsewhere(Step):
 
 
 class NotAtGoal(Step):
-    """Says why it is not where it was to go, and where it is now; always fails."""
+    """Says why the thing is not at its goal, and where it is now; always fails."""
 
     def update(self) -> Status:
-        """Put the clauses together."""
+        """Join the clauses."""
         hand, say = self.situation.hand, self.context.say
         name, why = self.situation.request.object or "", why_not(self.context) or self.why_before()
         if hand.elsewhere:
@@ -148,7 +149,7 @@ class NotAtGoal(Step):
 
 
 def why_not(context: MissionContext) -> str:
-    """Where it could not be put of all the places that were tried, and why; empty if nowhere."""
+    """The places where it could not be put, each with its reason, as a clause; empty if none."""
     situation, say = context.situation, context.say
     it = say.it(situation.request.object or "")
     tried = [

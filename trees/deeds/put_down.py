@@ -1,4 +1,4 @@
-"""Put down what is in the hand: where the robot was just sent, by the person, or where they say."""
+"""Put down what is in the hand: where the robot was just sent, near the person, or as they say."""
 
 from collections.abc import Iterable, Iterator
 
@@ -17,7 +17,7 @@ from trees.nodes import Check, FirstOf, Step, fallback, sequence
 from trees.person import AskWhereToPut, Report
 
 NEAR = 3
-"""How many pieces of furniture by the person are tried before they are asked."""
+"""How many pieces of furniture near the person are tried before the robot asks."""
 
 
 class PutDown(Deed):
@@ -26,7 +26,7 @@ class PutDown(Deed):
     kind = CommandKind.PUT_DOWN
 
     def ways(self, context: MissionContext) -> Iterable[Behaviour]:
-        """Nothing is searched for this."""
+        """Put down what is in the hand, without a search."""
         yield sequence(
             "put down",
             asked_to(context, self.kind),
@@ -40,7 +40,7 @@ class PutDown(Deed):
 
 
 def empty_hand(context: MissionContext) -> Behaviour:
-    """Put down what is in the hand, because the person says so: where they sent it, or by them."""
+    """Put down what is in the hand: where the robot was just sent, else near the person."""
     situation = context.situation
 
     def sent_to() -> Iterator[str]:
@@ -64,7 +64,7 @@ def empty_hand(context: MissionContext) -> Behaviour:
 
 
 def was_sent_here(context: MissionContext) -> bool:
-    """Whether the robot is at furniture to which it was just sent, in this mission or before it."""
+    """Whether the robot is at furniture to which its last command, here or before, has sent it."""
     situation, at = context.situation, context.situation.dialogue.at
     before = situation.dialogue.spoken
     if last := situation.agenda.ended[-1:]:
@@ -78,7 +78,7 @@ def was_sent_here(context: MissionContext) -> bool:
 
 
 def put_down_somewhere(context: MissionContext, name: str, *first: str) -> Behaviour:
-    """A full hand -> `situation.hand.put_at`: the places of `first`, near ones, those asked for."""
+    """Put down what is in the hand: at `first`, near the person, or where the person says."""
     situation = context.situation
 
     def near() -> Iterator[str]:
@@ -107,7 +107,7 @@ def put_down_somewhere(context: MissionContext, name: str, *first: str) -> Behav
 
 
 def go_and_put(context: MissionContext, *before: Behaviour) -> Behaviour:
-    """Take it to the surface at hand, and put it down there; `before` may choose another one."""
+    """Take the thing to `hand.surface` and put it down; `before` may choose another surface."""
     return sequence(
         "go and put",
         Check("still in my hand", context, lambda: context.situation.hand.in_hand is not None),
@@ -121,7 +121,7 @@ class NotPutDown(Step):
     """Says where there was no room, and why the person could not help; always fails."""
 
     def update(self) -> Status:
-        """What is in the hand no more has its own reason."""
+        """Sum up the places; if nothing is in the hand any more, keep the reason given before."""
         tried, silence = (
             self.situation.hand.not_put_down(self.context.say),
             self.situation.dialogue.no_help,
@@ -132,10 +132,10 @@ class NotPutDown(Step):
 
 
 class HoldsWhatIsMeant(Step):
-    """Succeeds if what is to be put down is in the hand."""
+    """Succeeds if the thing to be put down is in the hand."""
 
     def update(self) -> Status:
-        """Nobody need say the name of what is held; if they do, it has to be that."""
+        """Accept whatever is held if the words name nothing; else the name has to fit."""
         assert self.situation.request.command
         held, target = self.situation.hand.in_hand, self.situation.request.command.target
         if held is None:
@@ -149,10 +149,10 @@ class HoldsWhatIsMeant(Step):
 
 
 class StillHolds(Step):
-    """Says why the hand is not empty, and that it is not; always fails."""
+    """Says why the hand is not empty, and what it still holds; always fails."""
 
     def update(self) -> Status:
-        """What fell is no longer held; nor is what was let go of before it went wrong."""
+        """Say that the robot still holds the thing only if it has not fallen, or been let go of."""
         held, why = self.situation.hand.in_hand, self.why_before()
         if held:
             return self.fail(f"{why}; I still hold {self.context.say.the(held)}")

@@ -1,4 +1,4 @@
-"""Take a thing: pick it up, and hold it."""
+"""Take a thing: pick it up and hold it."""
 
 from collections.abc import Iterable
 
@@ -20,7 +20,7 @@ class Take(Deed):
     did = "took"
 
     def ways(self, context: MissionContext) -> Iterable[Behaviour]:
-        """It is in the hand already."""
+        """Report: the thing is in the hand already."""
         yield sequence(
             "take",
             asked_to(context, self.kind),
@@ -34,7 +34,7 @@ class Take(Deed):
         return whereabouts == HAND
 
     def how_far(self, context: MissionContext, why: str) -> str:
-        """It may have fallen since."""
+        """If the thing is no longer in the hand, say that instead."""
         if context.situation.has_it:
             return why
         name = context.situation.request.object or ""
