@@ -49,7 +49,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def build(knowledge: str, elicit: str, search: str = "plan") -> "Behaviour":
-    """The tree of these settings, with nobody in the context: it is to be looked at, not ticked."""
+    """The tree for these settings, with placeholders in the context: it cannot be ticked."""
     from executive.app.parts import Parts, build_context
     from executive.situation import Situation
     from sim.home.home_file import load_home

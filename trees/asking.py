@@ -28,7 +28,7 @@ class Ask(Action):
     activity = Activity.ASKING
 
     def __init__(self, name: str, context: MissionContext) -> None:
-        """Wait for each answer as long as the parameters allow."""
+        """Each answer may take as long as the parameters allow."""
         super().__init__(name, context, context.parameters.answer_s)
         self._tries = 0
         self._attended = False
@@ -105,7 +105,7 @@ class Ask(Action):
         return "wait for your answer"
 
     def out_of_time(self) -> Status:
-        """Nobody answered."""
+        """Note that nobody answered."""
         return self._no_help(f"nobody answered within {self._patience_s:g} s")
 
     def cancel(self, request: int) -> None:
@@ -127,7 +127,7 @@ class AskYesNo(Ask):
         """Do what follows from a yes."""
 
     def declines(self, answer: str) -> bool:
-        """A no is an answer."""
+        """A "no" is an answer here."""
         return self.context.interpreter.agrees(answer) is None and super().declines(answer)
 
     def understood(self, answer: str) -> bool:

@@ -1,4 +1,4 @@
-"""What is said beside what is at hand: what "it" is then, and whether it is about the same."""
+"""What the person says during a task: what "it" refers to, and whether it is about the same."""
 
 from dataclasses import replace
 from itertools import chain
@@ -14,7 +14,7 @@ from trees.wishes import objects_of
 
 
 def spoken_now(situation: Situation) -> Spoken:
-    """What "it" and "there" are: what the task at hand is about."""
+    """The referents of "it" and "there": what the current task is about."""
     request, before = situation.request, situation.dialogue.spoken
     if not request.command:
         return before
@@ -24,7 +24,7 @@ def spoken_now(situation: Situation) -> Spoken:
 
 
 def of_all_spoken(situation: Situation, said: object) -> Spoken:
-    """The same; of "them" and "both", with what waits, if it was asked for in one sentence."""
+    """The same; for "them" and "both", with the waiting tasks from the same sentence."""
     spoken, at_hand = spoken_now(situation), situation.request.command
     tasks = said.tasks if isinstance(said, Request) else ()
     if at_hand is None or not any(of_several(task.things) for task in tasks):
@@ -35,7 +35,7 @@ def of_all_spoken(situation: Situation, said: object) -> Spoken:
 
 
 def is_about_the_same(context: MissionContext, said: Request, words: str) -> bool:
-    """Whether all that is asked for is about the one thing of the task at hand."""
+    """Whether all that is asked for is about the one thing of the current task."""
     request = context.situation.request
     commands = commands_in(resolved(said, spoken_now(context.situation)), words)
     if request.object is None or not isinstance(commands, tuple):
@@ -45,7 +45,7 @@ def is_about_the_same(context: MissionContext, said: Request, words: str) -> boo
 
 
 def differs(context: MissionContext, said: Request, words: str) -> bool:
-    """Whether something else is asked for than what is at hand, and nothing beside it."""
+    """Whether this asks for something else than the current task, or for more."""
     at_hand = context.situation.request.command
     commands = commands_in(resolved(said, spoken_now(context.situation)), words)
     if at_hand is None or not isinstance(commands, tuple):

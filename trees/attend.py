@@ -1,4 +1,4 @@
-"""Hears the person, and passes on what the body tells, at each tick before anything else."""
+"""At each tick, before anything else: hears the person, and tells news from the body."""
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
@@ -12,12 +12,12 @@ from trees.telling import in_one_sentence, tell
 
 
 def hear_first(context: MissionContext) -> Behaviour:
-    """Hear the person, and then try what is to be done: the first of a fallback."""
+    """Hear the person, then fail, so that the fallback (whose first child this is) goes on."""
     return SuccessIsFailure("and go on", Attend("hear", context))
 
 
 class Attend(Step):
-    """Answers what was said, and tells what the body has to tell; always succeeds.
+    """Answers what was said, and tells what the body has reported; always succeeds.
 
     Reads dialogue.heard and dialogue.news; writes agenda.
     """
@@ -25,7 +25,7 @@ class Attend(Step):
     source = "person"
 
     def update(self) -> Status:
-        """One after the other."""
+        """Tell the news, then answer each utterance."""
         heard, news = self.situation.dialogue.heard, self.situation.dialogue.news
         while news:
             tell(self.context, news.pop(0))

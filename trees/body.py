@@ -22,7 +22,7 @@ class BodyAction(Action):
     """
 
     def __init__(self, name: str, context: MissionContext) -> None:
-        """Give the robot as long as the parameters allow."""
+        """The action may take as long as the parameters allow."""
         super().__init__(name, context, context.parameters.action_s)
 
     @abstractmethod
@@ -51,7 +51,7 @@ class BodyAction(Action):
 
 
 class RobotAction(BodyAction):
-    """Pursues one goal of the robot.
+    """Sends one goal to the robot.
 
     Writes ending.restless. A drive writes dialogue.at, dialogue.stands and dialogue.heads_for. If
     the robot loses what it holds, hand.lost and hand.in_hand are written. A failure is noted in
@@ -75,7 +75,7 @@ class RobotAction(BodyAction):
         return ""
 
     def start(self) -> int:
-        """Hand the goal to the robot, and tell the person."""
+        """Send the goal to the robot, and tell the person."""
         if said := self.progress():
             tell(self.context, said)
         self._goal = self.goal()

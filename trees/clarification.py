@@ -95,7 +95,7 @@ class AskDoYouMean(AskYesNo):
 class AskWhichObject(Ask):
     """Asks which thing is meant, if the words fit several things or none.
 
-    Reads request.options; writes request.object, or fewer request.options.
+    Reads request.options; writes request.object, or reduces request.options.
     """
 
     def question(self) -> Question:
@@ -227,7 +227,7 @@ class AskWhichObject(Ask):
             and command
             and said.tasks[0].verb in _QUESTIONS - {command.kind}
         ):
-            return ()  # "where is the apple?"
+            return ()  # a question such as "where is the apple?"
         if not self.situation.request.options and isinstance(said, Request):
             return ()
         find, words = self.context.knowledge.objects_named, named(said)

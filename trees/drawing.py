@@ -1,4 +1,4 @@
-"""A tree as a picture: from left to right, a row for each leaf, parents beside their children."""
+"""Draws a tree as SVG, from left to right: a row for each leaf, parents left of children."""
 
 from collections import defaultdict
 from collections.abc import Iterator
@@ -17,9 +17,9 @@ from trees.nodes import EachOf, FirstOf
 from trees.person import Announce, Apologise, Report
 
 ROW, HEIGHT, GAP, MARGIN = 30.0, 22.0, 26.0, 12.0
-"""Distance of rows, height of a box, between columns, around everything (pixels)."""
+"""Distance between rows, height of a box, gap between columns, outer margin (px)."""
 LETTER, PADDING = 6.7, 9.0
-"""Width of a letter at this size, and beside the text of a box (pixels)."""
+"""Average width of a letter, and the space on each side of a box's text (px)."""
 
 SIGNS: tuple[tuple[type, str, str], ...] = (
     (Sequence, "→", "all in order"),
@@ -30,13 +30,13 @@ SIGNS: tuple[tuple[type, str, str], ...] = (
     (FailureIsSuccess, "✓", "failure is success"),
     (SuccessIsFailure, "↷", "success is failure: what comes next is tried"),
 )
-"""What a composite's sign means."""
+"""The type of a composite or decorator, its sign, and what the sign means."""
 WHO: tuple[tuple[tuple[type, ...], str, str], ...] = (
     ((BodyAction,), "#cfe3fa", "robot"),
     ((ModelAction,), "#e3d3f7", "language model"),
     ((Ask, Announce, Report, Apologise), "#fbe2c2", "person"),
 )
-"""Whom a leaf works with, and its colour."""
+"""The types of leaves, their colour, and whom they work with."""
 BY_ITSELF, COMPOSITE = "#dcefdc", "#eceff2"
 
 STYLE = """
@@ -49,7 +49,7 @@ path { fill: none; stroke: #8b949e; stroke-width: 1.2 }
 
 @dataclass(frozen=True, slots=True)
 class _Box:
-    """A node in its place: `column` is its depth, `row` may lie between two rows."""
+    """A node with its position: `column` is its depth; `row` may lie between two rows of leaves."""
 
     node: Behaviour
     column: int
@@ -66,7 +66,7 @@ class _Box:
 
 
 def svg(root: Behaviour) -> str:
-    """The tree as an SVG file (W3C SVG 1.1), with a legend."""
+    """The tree as the text of an SVG file (W3C SVG 1.1), with a legend."""
     boxes = {box.node.id: box for box in _place(root, 0, 0.0, None)}
     lefts = _columns(list(boxes.values()))
     width = max(lefts[box.column] + box.width for box in boxes.values()) + MARGIN
@@ -89,7 +89,7 @@ def sign(node: Behaviour) -> str:
 
 
 def color(node: Behaviour) -> str:
-    """The colour of a behaviour: whom it works with."""
+    """The colour of a behaviour, by whom it works with."""
     if node.children:
         return COMPOSITE
     return next((color for kinds, color, _ in WHO if isinstance(node, kinds)), BY_ITSELF)
@@ -98,7 +98,7 @@ def color(node: Behaviour) -> str:
 def _place(
     node: Behaviour, column: int, first_row: float, parent: Behaviour | None
 ) -> Iterator[_Box]:
-    """Boxes of a subtree whose first leaf is in `first_row`."""
+    """Boxes of a subtree whose first leaf is in `first_row`, the root last."""
     if not node.children:
         yield _Box(node, column, first_row, parent)
         return
@@ -112,7 +112,7 @@ def _place(
 
 
 def _columns(boxes: list[_Box]) -> list[float]:
-    """Left edge of each column (pixels): as wide as its widest box that has something beside it."""
+    """Left edge of each column (px); leaves need no space, as nothing is to their right."""
     widths: dict[int, float] = defaultdict(float)
     for box in boxes:
         if box.node.children:
@@ -142,7 +142,7 @@ def _middle(row: float) -> float:
 
 
 def _legend(top: float) -> Iterator[str]:
-    """The signs, and beside them the colours."""
+    """The signs, and next to them the colours."""
     for number, (_, sign, meaning) in enumerate(SIGNS):
         y = top + number * ROW + HEIGHT / 2
         yield _text(MARGIN + PADDING, y, f"{sign}   {meaning}")

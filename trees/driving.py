@@ -114,7 +114,7 @@ class DriveToSurface(RobotAction):
     activity = Activity.DRIVING
 
     def progress(self) -> str:
-        """Say where to."""
+        """Say where the robot drives."""
         return on_the_way(self.context, self.situation.hand.surface)
 
     def goal(self) -> Goal:
@@ -130,13 +130,13 @@ class DriveToSurface(RobotAction):
 class DriveToGoal(RobotAction):
     """Drives to the goal of the command, alone or with the thing.
 
-    Reads request.goal; writes dialogue.away, and hand.unplaced if there is something in the hand.
+    Reads request.goal; writes dialogue.away, and hand.unplaced if something is in the hand.
     """
 
     activity = Activity.DRIVING
 
     def progress(self) -> str:
-        """Say where to."""
+        """Say where the robot drives."""
         return on_the_way(self.context, self.situation.request.goal)
 
     def goal(self) -> Goal:

@@ -1,4 +1,4 @@
-"""How many seconds tasks may take, as far as anyone can tell without asking or looking."""
+"""Expected durations of tasks (s), estimated without asking or looking."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from math import inf
@@ -14,22 +14,22 @@ from trees.place_words import best_first, places_in
 from trees.ways import Ways
 
 LIKELIEST = 4
-"""Of the places where a thing may be, so many count: their best order is found in no time."""
+"""Only this many likely places of a thing count; their best order is found quickly."""
 ALONE = Prices(question_s=inf)
-"""Nobody is asked."""
+"""The price of a question is infinite, so that nobody is asked."""
 
 
 class Expected:
-    """What tasks take by the beliefs and the ways of this moment."""
+    """Expected durations of tasks, by the current beliefs and travel times."""
 
     def __init__(self, context: MissionContext) -> None:
-        """Ask the robot for no way yet."""
+        """No travel time has been asked for yet."""
         self._context = context
         self._ways = Ways(context)
         self._told: dict[tuple[Command, str], tuple[float, str]] = {}
 
     def done_after(self, commands: Iterable[Command], start: str) -> Iterator[float]:
-        """Done one after the other, when each of them is done (seconds from now)."""
+        """For each command, when it is done (seconds from now) if all are done in this order."""
         passed = 0.0
         for command in commands:
             seconds, start = self._of(command, start)
@@ -37,11 +37,11 @@ class Expected:
             yield passed
 
     def seconds(self, command: Command, start: str) -> float:
-        """From there, until the thing is found and is where it is to go, or the robot is."""
+        """Duration from this start until the thing (or the robot) is where it is to be (s)."""
         return self._of(command, start)[0]
 
     def _of(self, command: Command, start: str) -> tuple[float, str]:
-        """The seconds, and where the robot is then."""
+        """The duration (s), and where the robot is at its end."""
         if (command, start) not in self._told:
             plan = looking(self._ways, start, self._likely(command, start))
             seen = next(iter(plan.order), start)
@@ -52,7 +52,7 @@ class Expected:
         return self._told[command, start]
 
     def _end(self, command: Command) -> str | None:
-        """Where the thing is to be, or the robot; None if that is where it is found."""
+        """Where the thing or the robot ends up; None if that is where the thing is found."""
         means = command.kind.means
         if not means.at_goal:
             return means.ends_at if means.grasps else None
@@ -60,7 +60,7 @@ class Expected:
         return best_first(self._context, named)[0] if named else None
 
     def _likely(self, command: Command, start: str) -> Sequence[Likely]:
-        """Where the thing may be, or what the robot goes to."""
+        """Where the thing may be, or the place the robot goes to."""
         context = self._context
         if command.kind == CommandKind.GO:
             return [Likely(self._end(command) or start, 1.0)]
@@ -76,7 +76,7 @@ def is_in_hand(context: MissionContext, command: Command) -> bool:
 
 
 def looking(ways: Ways, start: str, likely: Sequence[Likely]) -> Plan:
-    """The order in which it takes the fewest seconds, by expectation, until the thing is seen."""
+    """The order of looking with the shortest expected time until the thing is seen."""
     places = [one.place for one in likely]
     return best_plan(
         [Chance(one.place, one.probability) for one in likely],
@@ -87,13 +87,13 @@ def looking(ways: Ways, start: str, likely: Sequence[Likely]) -> Plan:
 
 
 def seen_soonest(context: MissionContext, likely: Sequence[Likely]) -> tuple[str, ...]:
-    """All of these places, in that order; those that cannot be reached come last."""
+    """All of these places in the best order; those that cannot be reached come last."""
     order = looking(Ways(context), context.situation.dialogue.at, likely).order
     return tuple(dict.fromkeys((*order, *(one.place for one in likely))))
 
 
 def whereabouts(context: MissionContext, command: Command) -> Belief:
-    """Where one of the things of a task may be, by the words, by memory and by the ontology."""
+    """Where one of the things of a task may be, by the words, the memory and the ontology."""
     named = places_in(context, command.source) if command.source else ()
     things = things_meant(context, command)
     remembered = [place for thing in things for place in context.facts.places_of(thing)]

@@ -1,4 +1,4 @@
-"""What is named is to be done before all else that was asked for, or instead of all of it."""
+"""When the person wants something done first, or wants only that done."""
 
 from executive.language.anew import number_alone
 from executive.language.answers import things_in
@@ -14,7 +14,7 @@ from trees.wishes import done_first, named_in, objects_of, only_so_many, waiting
 def first_of_all(
     context: MissionContext, things: Things, at_hand: Command, words: str, now: str
 ) -> str:
-    """Do what is named before all else: what waits, or the deed at hand with it."""
+    """Do what is named first: a waiting task, or the current deed with these things."""
     if any(thing.pronoun for thing in things.members):
         return f"{context.interpreter.not_understood(words)}. {now}"
     if said := waiting_first(context, things, at_hand, now):
@@ -41,7 +41,7 @@ def _named(context: MissionContext, things: Things) -> set[str]:
 
 
 def nothing_else(context: MissionContext, things: Things, words: str, at_hand: Command) -> str:
-    """Do what is named, and nothing else that was to be done; or do it instead of all of that."""
+    """Do only what is named, and drop all other tasks; or do it in place of all of them."""
     agenda = context.situation.agenda
     named = _named(context, things)
     if not named:
@@ -55,7 +55,7 @@ def nothing_else(context: MissionContext, things: Things, words: str, at_hand: C
         return f"{context.interpreter.not_understood(words)}."
     for task in [task for task in whole if task not in waiting]:
         agenda.strike_out(task)
-    if not objects_of(context, at_hand) <= named:  # of all that was wanted, only this
+    if not objects_of(context, at_hand) <= named:  # the current task is not wanted any more
         if not waiting:
             return correct(context, Correction(things), words, "")
         agenda.take_back()

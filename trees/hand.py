@@ -69,7 +69,7 @@ class SayWhatFirst(Step):
     """
 
     def __init__(self, name: str, context: MissionContext, text: str) -> None:
-        """`text` may use {held} and {surface}, with its preposition."""
+        """`text` may contain {held}, and {surface} with its preposition."""
         super().__init__(name, context)
         self._text = text
 

@@ -71,7 +71,7 @@ class PickUp(RobotAction):
 
 
 class PutDownAction(RobotAction):
-    """Puts the held thing down.
+    """Puts down the held thing.
 
     Reads hand.in_hand and hand.felt; writes hand.in_hand and hand.put_at.
     """
@@ -105,7 +105,7 @@ class PutDownAction(RobotAction):
 
 
 class PutDownAt(PutDownAction):
-    """Puts the held thing down at a place that the tree names."""
+    """Puts the held thing down at a fixed place."""
 
     def __init__(self, name: str, context: MissionContext, place: str) -> None:
         """Name the place."""

@@ -125,7 +125,7 @@ class Hear(Step):
     trust = SOURCE_TRUST
 
     def __init__(self, name: str, context: MissionContext, source: PlaceSource) -> None:
-        """Ask this source."""
+        """`source` is the one to ask."""
         super().__init__(name, context)
         self.knows = source
         self.source = source.name

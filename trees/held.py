@@ -55,7 +55,7 @@ class HoldChoice(Action):
         return choice is not None and place not in ("", choice.place)
 
     def initialise(self) -> None:
-        """Wait only if choices are held."""
+        """Wait only if choices are held, and there is another option."""
         self.feedback_message = ""
         if self.steering.holds and self.is_free():
             super().initialise()
@@ -145,7 +145,7 @@ class HoldSurface(HoldChoice):
         return Choice(For.PUT, self.situation.hand.surface)
 
     def adopt(self, place: str) -> None:
-        """Put it there."""
+        """Use this surface."""
         self.situation.hand.surface = place
 
 

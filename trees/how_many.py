@@ -1,4 +1,4 @@
-"""What is told of a task that was done in parts: of how many, of which, and why of no more."""
+"""The report about a task done in parts: how many, which ones, and why not more."""
 
 from collections.abc import Iterable, Iterator
 
@@ -28,7 +28,7 @@ def how_many(context: MissionContext, whole: Whole, wanted: int) -> str:
 
 
 def named(context: MissionContext, whole: Whole) -> str:
-    """The things that it was done to, and where each is now if that is not known from the words."""
+    """The things that were done; with their places, unless the words already say where."""
     at = {part.object or part.target: part.put_at or part.location for part in whole.done}
     known = len(set(at.values())) == 1 and (whole.command.goal or DELIVERY in at.values())
     places = {name: place for name, place in at.items() if place}
@@ -38,7 +38,7 @@ def named(context: MissionContext, whole: Whole) -> str:
 
 
 def why_not_all(context: MissionContext, whole: Whole) -> Iterator[str]:
-    """Why it was not done to others, those together for which the reason is the same."""
+    """Why it was not done for the others; things with the same reason together."""
     reasons: dict[str, list[str]] = {}
     for part in whole.parts:
         if part.status != MissionStatus.DONE:
@@ -52,7 +52,7 @@ def why_not_all(context: MissionContext, whole: Whole) -> Iterator[str]:
 
 
 def reason_now(context: MissionContext, part: TaskOutcome) -> str:
-    """Why a part was not done; what the hand held then, it may have put away since."""
+    """Why a part was not done, without "I still hold" if the thing is no longer in the hand."""
     reason = part.reason.rstrip(".")
     if part.object and part.object != context.situation.hand.in_hand:
         return reason.removesuffix(f"; I still hold {context.say.the(part.object)}")
@@ -60,5 +60,5 @@ def reason_now(context: MissionContext, part: TaskOutcome) -> str:
 
 
 def sentences(parts: Iterable[TaskOutcome]) -> str:
-    """Why none of several was done of which one would have been enough."""
+    """The reasons of all parts, where one success would have been enough."""
     return "; ".join(dict.fromkeys(part.reason.rstrip(".") for part in parts))

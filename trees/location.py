@@ -162,7 +162,7 @@ class VerifyNames(Step):
 
 
 class VerifyFurniture(VerifyNames):
-    """Existence check of a room's furniture: rooms are not expanded a second time."""
+    """Existence check of a room's furniture; rooms are not expanded a second time."""
 
     takes_rooms = False
 

@@ -1,4 +1,4 @@
-"""Which things words mean, as far as nobody has to be asked."""
+"""Which objects the words mean, as far as this is known without a question."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
@@ -10,14 +10,14 @@ from trees.context import MissionContext
 
 
 def meant(knowledge: Knowledge, command: Command) -> tuple[str, ...]:
-    """The objects that a command may be about: what they are called, look like, or are for."""
+    """The objects that a command may be about, by name, class, appearance or purpose."""
     if command.purpose:
         return knowledge.objects_for(command.purpose)
     return knowledge.objects_named(command.target)
 
 
 def things_meant(context: MissionContext, command: Command) -> tuple[str, ...]:
-    """The same, of any of the names between which the words leave the choice; less exceptions."""
+    """The same without exceptions; if the words leave a choice between names, all of these."""
     names = (
         tuple(n for name in command.among for n in context.knowledge.objects_named(name))
         if command.among
@@ -27,7 +27,7 @@ def things_meant(context: MissionContext, command: Command) -> tuple[str, ...]:
 
 
 def just_seen(context: MissionContext) -> tuple[str, ...]:
-    """The things that the question before this was answered with; none if there was no question."""
+    """The things in the answer to the previous command, if that was a question; else empty."""
     ended, spoken = context.situation.agenda.ended, context.situation.dialogue.spoken
     if ended:
         return ended[-1].things if ended[-1].kind in QUESTIONS else ()
@@ -38,16 +38,16 @@ def just_seen(context: MissionContext) -> tuple[str, ...]:
 def without_exceptions(
     knowledge: Knowledge, command: Command, names: tuple[str, ...]
 ) -> tuple[str, ...]:
-    """Those of the objects that the command does not leave out: "anything but a banana"."""
+    """The objects without those that the command excludes, as in "anything but a banana"."""
     left_out = (name for but in command.exceptions for name in (but, *knowledge.names_in(but)))
     not_meant = {one for name in left_out for one in knowledge.objects_named(name)}
     return tuple(name for name in names if name not in not_meant)
 
 
 def leaves_out_a_place(context: MissionContext, commands: Iterable[Command]) -> bool:
-    """Whether a place is not meant where the thing may be, or may go: "a mug, not the kitchen".
+    """Whether a command excludes a place to find or put the thing: "a mug, not the kitchen".
 
-    "On the sofa, not the desk" says no more than the sofa.
+    The exclusion in "on the sofa, not the desk" is harmless: the goal is the sofa.
     """
     places = context.knowledge.places_named
     return any(
@@ -58,10 +58,10 @@ def leaves_out_a_place(context: MissionContext, commands: Iterable[Command]) -> 
 
 
 def less_what_is_left_out(context: MissionContext, commands: Commands) -> Commands:
-    """The same with only things in their exceptions, and without tasks whose own things these are.
+    """The commands with only things as exceptions, and without tasks whose own things are excluded.
 
-    A place that is not meant changes nothing. Of the apple and the mug that were seen, the mug is
-    "everything but the fruit"; where nothing would be left, all stay as they are.
+    Excluded places are dropped. If an apple and a mug were seen, "everything but the fruit" means
+    the mug. If no task would be left, all stay.
     """
     less = tuple(
         tuple(replace(one, exceptions=_things_left_out(context, one)) for one in group)
@@ -74,14 +74,14 @@ def less_what_is_left_out(context: MissionContext, commands: Commands) -> Comman
 
 
 def _is_left_out(context: MissionContext, command: Command, group: Sequence[Command]) -> bool:
-    """Whether none of its things is meant, by what is said of the whole group."""
+    """Whether all its things are excluded by an exception of the whole group."""
     of_all = all(one.exceptions == command.exceptions for one in group)
     named = meant(context.knowledge, command)
     return of_all and bool(named) and not without_exceptions(context.knowledge, command, named)
 
 
 def goes_elsewhere(context: MissionContext, command: Command, before: Command) -> bool:
-    """Whether its thing is to go on the sofa, and not where the task before takes it."""
+    """Whether the thing of the earlier task gets another goal: "on the sofa, not the desk"."""
     things = {*things_meant(context, before)}
     if not things or not things <= {*things_meant(context, command)}:
         return False
@@ -96,7 +96,7 @@ def _places_left_out(context: MissionContext, command: Command) -> tuple[str, ..
 
 
 def _things_left_out(context: MissionContext, command: Command) -> tuple[str, ...]:
-    """Its exceptions but for those that name a place, and no thing."""
+    """Its exceptions without those that name only a place."""
     knowledge = context.knowledge
     return tuple(
         but

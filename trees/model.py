@@ -1,4 +1,4 @@
-"""Leaves that talk to the language model."""
+"""Leaves that call the language model."""
 
 from abc import abstractmethod
 from dataclasses import replace
@@ -24,7 +24,7 @@ class ModelAction(Action):
     activity = Activity.THINKING
 
     def __init__(self, name: str, context: MissionContext) -> None:
-        """Give the model as long as the parameters allow."""
+        """The model may take as long as the parameters allow."""
         super().__init__(name, context, context.parameters.model_s)
         assert context.model is not None
         assert context.advice is not None
@@ -49,7 +49,7 @@ class ModelAction(Action):
         super().terminate(new_status)
 
     def cancel(self, request: int) -> None:
-        """Stop the model."""
+        """Cancel the request."""
         self.model.cancel(request)
 
     def failed(self, result: Result) -> Status:
@@ -82,7 +82,7 @@ class RankPlaces(ModelAction):
         return self.situation.search.default_locations
 
     def start(self) -> int:
-        """Ask for the scores."""
+        """Request the scores."""
         assert self.situation.request.object
         ranking = self.advice.ranker.ranking(self.situation.request.object, self.among)
         return self.model.rank(ranking)
@@ -121,7 +121,7 @@ class Chat(ModelAction):
 
     @property
     def thing(self) -> str:
-        """Name of the object that is looked for."""
+        """Name of the object that is searched."""
         assert self.situation.request.object
         return self.situation.request.object
 
@@ -130,7 +130,7 @@ class Inquire(Chat):
     """The prompt `general_pos`; or `multiple_pos` if the ontology knows several places."""
 
     def request(self) -> ChatRequest:
-        """Ask for the likely places."""
+        """Ask for likely places."""
         return self.advice.lister.inquiry(self.thing, self.situation.search.default_locations)
 
 
@@ -168,7 +168,7 @@ class RankKinds(ModelAction):
     """
 
     def start(self) -> int:
-        """Ask for the scores."""
+        """Request the scores."""
         return self.model.rank(self.advice.reader.ranking(self.situation.request.words))
 
     def ended(self, result: Result) -> Status:

@@ -130,7 +130,7 @@ class OntologyKnowsObject(Step):
 
 
 class PersonPrefersOne(Step):
-    """Succeeds if the ontology knows that this person prefers one of the things that fit.
+    """Succeeds if the ontology knows that the person prefers exactly one of the options.
 
     Reads request.options; writes request.object.
     """

@@ -1,4 +1,4 @@
-"""Which task comes next: in the order said, or, where none was said, in the cheapest."""
+"""Which task is next: by the order that was said, or, if none was said, by the expected time."""
 
 from dataclasses import replace
 from itertools import chain, permutations
@@ -12,11 +12,11 @@ from trees.meant import things_meant
 from trees.wholes import left_to_do, settle
 
 WEIGHED = 5
-"""So many tasks are put in order at once, those that take least: 120 orders are compared."""
+"""At most so many tasks, the shortest ones, are put in order: that compares 120 orders."""
 
 
 def begin_next(context: MissionContext) -> bool:
-    """Turn to the next task of the agenda; False if there is none."""
+    """Begin the next task of the agenda; False if there is none."""
     situation = context.situation
     while settle(context):
         pass
@@ -28,9 +28,9 @@ def begin_next(context: MissionContext) -> bool:
 
 
 def in_full(context: MissionContext, command: Command) -> Command:
-    """The same about all of the things, if the words are for several, and there are.
+    """The command for all its things if the words are plural and several things fit.
 
-    What is to be cleared may be a place or things, which only who knows their names can tell.
+    "Clear" may be about a place or about things; this needs the known names.
     """
     if command.kind == CommandKind.CLEAR:
         return _cleared(context.knowledge, command)
@@ -39,7 +39,7 @@ def in_full(context: MissionContext, command: Command) -> Command:
 
 
 def _cleared(knowledge: Knowledge, command: Command) -> Command:
-    """As in "clear the table in the kitchen", which is no thing, and "clear the mugs"."""
+    """The place of "clear the table in the kitchen" as source; "clear the mugs" as "put back"."""
     target, source = command.target, command.source
     if target and not knowledge.objects_named(target) and knowledge.is_place(target):
         return replace(command, target="", source=f"{target} in {source}")
@@ -56,10 +56,11 @@ def _cleared(knowledge: Knowledge, command: Command) -> Command:
 
 
 def cheapest(context: MissionContext, tasks: tuple[Task, ...]) -> Task:
-    """The task that the best order begins with; of orders that are as good, as they were said.
+    """The first task of the best order; between equal orders, the one that was said.
 
-    What is in the hand comes first: it would be in the way. For the rest, the best order is over
-    soonest, and so is each of its tasks, on the average; it has as many as are enough.
+    A task with the held thing comes first, as the hand has to be free for the others. The best
+    order has the least cost: the time until all is done, plus the mean time until a task is done.
+    If a number of parts is enough, an order has only so many.
     """
     held = [task for task in tasks if is_in_hand(context, task.command)]
     if held or len(tasks) == 1:

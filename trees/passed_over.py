@@ -1,4 +1,4 @@
-"""What stands in the words of a command, and nothing was made of."""
+"""The words of a command that the grammar ignored."""
 
 import re
 from collections.abc import Sequence
@@ -12,10 +12,7 @@ from trees.place_words import places_in
 
 
 def passed_over(context: MissionContext, commands: Sequence[Command]) -> list[str]:
-    """What stands in the words, and nothing was made of, as it was said.
-
-    That is things and places, colours, numbers, and what it depends on.
-    """
+    """The ignored words, as they were said: things, places, colours, numbers and conditions."""
     knowledge, words = context.knowledge, context.situation.request.words
     conditions = [part for one in commands for part in (one.sought, one.unless) if part]
     commands = [*commands, *conditions]
@@ -40,7 +37,7 @@ def passed_over(context: MissionContext, commands: Sequence[Command]) -> list[st
 
 
 def _places_of(context: MissionContext, command: Command) -> set[str]:
-    """The furniture that a command speaks of."""
+    """The furniture that a command names."""
     return {
         *places_in(context, command.source),
         *places_in(context, command.goal),
@@ -49,9 +46,9 @@ def _places_of(context: MissionContext, command: Command) -> set[str]:
 
 
 def passed_over_in_name(context: MissionContext, said: str, name: str) -> str:
-    """What stands beside the name of a thing, and says more of it: "mug desk" -> "desk".
+    """The known words beside the name of a thing, which would say more: "mug desk" -> "desk".
 
-    Empty if nothing does that is known: a thing, a place, a number, or what it depends on.
+    They name a thing, a place, a number or a condition; empty if none do.
     """
     knowledge, named = context.knowledge, words_of(context.say.words(name))
     rest = [word for word in said.split() if not set(words_of(word)) <= set(named)]

@@ -95,7 +95,7 @@ class AskWhereToPut(AskForPlace):
 
 
 class Announce(Step):
-    """Tells where the robot is going to look, and who says so.
+    """Tells where the robot is going to look, and which source says so.
 
     Reads search.candidates.
     """

@@ -7,7 +7,7 @@ from trees.context import MissionContext
 
 
 def on_to_the_next(context: MissionContext) -> str:
-    """That the thing was not at the last place, or why that is not known; empty at the first."""
+    """That the thing was not at the last place, or why this is unknown; empty at the first."""
     search, say = context.situation.search, context.say
     places = [candidate.place for candidate in search.candidates]
     at = places.index(search.place) if search.place in places else 0
@@ -25,7 +25,7 @@ def on_to_the_next(context: MissionContext) -> str:
 
 
 def on_the_way(context: MissionContext, place: str) -> str:
-    """Where the robot is going, and what it has with it."""
+    """Where the robot drives, and what it carries."""
     situation, say = context.situation, context.say
     held = situation.hand.in_hand
     if held and place == DELIVERY:

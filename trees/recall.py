@@ -20,7 +20,7 @@ class Recall(Step):
     """
 
     def __init__(self, name: str, context: MissionContext, source: PlaceSource) -> None:
-        """Ask this source."""
+        """`source` is the one to ask."""
         super().__init__(name, context)
         self.knows = source
         self.source = source.name
@@ -64,10 +64,10 @@ class Memory:
 
 
 class MemoryKnowsPlaces(Recall):
-    """Succeeds if the thing was seen somewhere in this home, or was said to be there."""
+    """Succeeds if the thing was seen in this home, or said to be there."""
 
     def __init__(self, name: str, context: MissionContext) -> None:
-        """Ask the robot's own memory."""
+        """The source is the robot's own memory."""
         super().__init__(name, context, Memory(context.facts))
 
     def worth_a_visit(self, candidates: tuple[Candidate, ...]) -> tuple[Candidate, ...]:

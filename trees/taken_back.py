@@ -23,7 +23,7 @@ _ALL = re.compile(
 
 
 def refused(context: MissionContext, words: str, at_hand: Command | None) -> str:
-    """Do nothing that the words are about, now or later; empty if none of it was to be done."""
+    """Drop all tasks that the words are about, now or later; empty if there is no such task."""
     if at_hand and _REST.search(words.lower()):
         return _nothing_more(context, _named(context, words))
     agenda = context.situation.agenda
@@ -61,7 +61,7 @@ def _named(context: MissionContext, words: str) -> set[str]:
 
 
 def _nothing_more(context: MissionContext, named: set[str]) -> str:
-    """Do the task at hand, and of what was not begun nothing; nothing of these, if they are named.
+    """Do the current task and drop the waiting ones; if things are named, only those with them.
 
     As in "forget the rest", "forget the rest of the fruit".
     """
@@ -78,9 +78,9 @@ def _nothing_more(context: MissionContext, named: set[str]) -> str:
 
 
 def _of_those_asked_for(context: MissionContext, words: str, at_hand: Command | None) -> set[str]:
-    """The things that "the first one", "the others" are, of all that was asked for in one breath.
+    """The things that "the first one" or "the others" mean, of all that was asked for at once.
 
-    The others are those whose turn it is not yet. Empty if it is not clear.
+    "The others" are those that were not begun. Empty if it is not clear.
     """
     if at_hand is None:
         return set()
@@ -102,7 +102,7 @@ def _of_those_asked_for(context: MissionContext, words: str, at_hand: Command | 
 
 
 def _others(context: MissionContext, at_hand: Command, named: set[str]) -> Command | None:
-    """As many things, but none of those named; None if there are too few, or it is about others."""
+    """The task without the named things; None if too few would be left, or it is not about them."""
     things = objects_of(context, at_hand)
     if named and at_hand.kind == CommandKind.CLEAR and not things:  # whatever is there
         left_out = tuple(sorted(named))
@@ -116,12 +116,12 @@ def _others(context: MissionContext, at_hand: Command, named: set[str]) -> Comma
 
 
 def _of_all(command: Command) -> bool:
-    """Whether all of a kind are meant."""
+    """Whether the command is about all things of a kind."""
     return command.number == ALL or command.plural
 
 
 def _leave_out(context: MissionContext, task: Task, named: set[str]) -> Command:
-    """Strike out a task that waits, or what is not to be meant by it; what is not done then."""
+    """Drop a waiting task, or exclude the named things from it; returns what is dropped."""
     command, others = task.command, objects_of(context, task.command) - named
     if not named or not others:
         context.situation.agenda.strike_out(task)
@@ -133,7 +133,7 @@ def _leave_out(context: MissionContext, task: Task, named: set[str]) -> Command:
 
 
 def is_about(context: MissionContext, words: str, at_hand: Command) -> bool:
-    """Whether it is the task at hand that is not to be done."""
+    """Whether the refusal is about the current task."""
     request = context.situation.request
     if named := _named(context, words) or _of_those_asked_for(context, words, at_hand):
         return request.object in named or bool(named & objects_of(context, at_hand))
@@ -141,7 +141,7 @@ def is_about(context: MissionContext, words: str, at_hand: Command) -> bool:
 
 
 def _means_all(words: str) -> bool:
-    """As in "do not bring anything", but not "I need nothing else", "all but two"."""
+    """As in "do not bring anything", but not in "I need nothing else" or "all but two"."""
     return _ALL.search(words) is not None
 
 

@@ -214,7 +214,7 @@ class ConfirmCommand(AskYesNo):
 
 
 def named(command: Command) -> str:
-    """A command in the log: "bring mug from desk", "put mug to sofa"."""
+    """The command for the log: "bring mug from desk", "put mug to sofa"."""
     kind = command.kind.replace("_", " ")
     source = f"from {command.source}" if command.source else ""
     goal = f"to {command.goal}" if command.goal else ""

@@ -1,4 +1,4 @@
-"""What is said of things that nobody knows, or that have another colour than was said."""
+"""What to say about unknown things, and about things that have another colour than was said."""
 
 from collections.abc import Sequence
 
@@ -8,12 +8,12 @@ from trees.context import MissionContext
 
 
 def unknown(context: MissionContext, words: str) -> str:
-    """That nothing is what was asked for, as a sentence without its full stop."""
+    """That the thing is unknown, as a sentence without the full stop."""
     return beginning(unresolved(context, words, ()))
 
 
 def unresolved(context: MissionContext, words: str, offered: Sequence[str]) -> str:
-    """The same as a reason why nothing was done, with what is nearest to it."""
+    """The same as the reason of a failure, with the nearest known names."""
     if other := context.knowledge.other_color(words):
         return _not_so(context, other)
     if context.knowledge.is_place(words):
@@ -23,7 +23,7 @@ def unresolved(context: MissionContext, words: str, offered: Sequence[str]) -> s
 
 
 def nearest(context: MissionContext, words: str) -> tuple[str, ...]:
-    """What is most like what was asked for: of another colour, or called nearly so."""
+    """The objects most like the words: of another colour, or with a similar name."""
     if other := context.knowledge.other_color(words):
         return tuple(name for name, _ in other.actual)
     return () if context.knowledge.is_place(words) else context.knowledge.nearest_names(words)

@@ -1,4 +1,4 @@
-"""How long ways take: from where the robot is, between places, and from halfway."""
+"""Travel times: from where the robot is, between places, and from halfway."""
 
 from collections.abc import Sequence
 from math import isfinite, sqrt
@@ -9,20 +9,20 @@ from trees.context import MissionContext
 
 
 class Ways:
-    """How long ways take, as the robot told; what was asked anew is recorded, for a replay."""
+    """Travel times as the robot estimates them; new estimates are recorded for the replay."""
 
     def __init__(self, context: MissionContext) -> None:
-        """Ask nothing yet."""
+        """Nothing is known yet."""
         self._context = context
         self._told: dict[str, dict[str, float]] = {}
 
     def seconds(self, start: str, places: Sequence[str]) -> list[float]:
-        """Of the ways from here, and of looking at all of each place (s)."""
+        """Time to drive from `start` to each place and to look at all of it (s)."""
         ways = self.driving(start, places)
         return [way + self._look_s(place) for way, place in zip(ways, places, strict=True)]
 
     def driving(self, start: str, places: Sequence[str]) -> list[float]:
-        """Of the ways alone (s)."""
+        """Time to drive from `start` to each place (s); infinite if it cannot be reached."""
         told = self._told.setdefault(start, {})
         if new := tuple(place for place in places if place not in told):
             told |= {place: self._context.robot.seconds(start, place) for place in new}
@@ -31,7 +31,7 @@ class Ways:
         return [told[place] for place in places]
 
     def seconds_from_halfway(self, leg: Leg, places: Sequence[str]) -> list[float]:
-        """The same from between two places, as if ways were straight (Stewart's theorem)."""
+        """The same from a position on a leg, as if ways were straight (Stewart's theorem)."""
         driven = self._context.clock.now() - leg.since_s if leg.driven_s is None else leg.driven_s
         whole, *_ = self.driving(leg.start, (leg.place,))
         part = min(1.0, driven / whole) if whole > 0 else 1.0
@@ -44,13 +44,13 @@ class Ways:
 
 
 def between(back: float, on: float, whole: float, part: float) -> float:
-    """How far it is from a part (0 to 1) of a straight way to a point.
+    """Distance (or time) from a position on a straight way to a point.
 
     Args:
-        back: how far it is from the beginning of the way.
-        on: how far it is from its end.
-        whole: how long the way is.
-        part: how much of it is behind.
+        back: from the start of the way to the point.
+        on: from the end of the way to the point.
+        whole: length of the way, in the same unit.
+        part: the travelled fraction of the way (0 to 1).
     """
     if not isfinite(back + on + whole):
         return max(back, on)

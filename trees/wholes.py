@@ -1,4 +1,4 @@
-"""A task that is done in parts: when it is settled, and what came of it."""
+"""A task that is done in parts: when it ends, and with what outcome."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -12,7 +12,7 @@ from trees.telling import tell
 
 
 def settle(context: MissionContext) -> bool:
-    """End the task that is done in parts, if it is settled, and tell what came of it."""
+    """End the innermost task in parts if it is decided, and tell the outcome; whether it ended."""
     agenda = context.situation.agenda
     if not agenda.wholes:
         return False
@@ -28,12 +28,12 @@ def settle(context: MissionContext) -> bool:
 
 
 def most(whole: Whole) -> int:
-    """How many parts can be done: one hand takes one thing."""
+    """How many parts can be done: for "take", one, because there is one hand."""
     return 1 if whole.command.kind == CommandKind.TAKE else whole.wanted
 
 
 def left_to_do(context: MissionContext, tasks: Sequence[Task]) -> int:
-    """How many of the tasks that may come next are to be done: of parts, as many as are enough."""
+    """How many of the next tasks are to be done; parts of a task only until enough are done."""
     wholes = context.situation.agenda.wholes
     if not (wholes and tasks[0].depth == len(wholes)):
         return len(tasks)
@@ -41,7 +41,7 @@ def left_to_do(context: MissionContext, tasks: Sequence[Task]) -> int:
 
 
 def decide(context: MissionContext, whole: Whole) -> None:
-    """Of a condition: what follows from the part that has ended."""
+    """For a task with a condition: add what follows from the outcome of its first part."""
     agenda, command = context.situation.agenda, whole.command
     if len(whole.parts) != 1 or agenda.has_parts:
         return
@@ -58,7 +58,7 @@ def decide(context: MissionContext, whole: Whole) -> None:
 
 
 def what_follows(command: Command, answer: TaskOutcome) -> Command:
-    """The deed, with the thing that was seen if it was about such a thing, and where that is."""
+    """The deed without its condition, with the thing or at the place that was seen."""
     deed = without_condition(command)
     if answer.location:  # of what it is to be put beside
         return replace(deed, goal=answer.location)
@@ -68,12 +68,12 @@ def what_follows(command: Command, answer: TaskOutcome) -> Command:
 
 
 def without_condition(command: Command) -> Command:
-    """The deed itself."""
+    """The deed without its condition."""
     return replace(command, conditional=False, sought=None, unless=None)
 
 
 def outcome_of(context: MissionContext, whole: Whole) -> TaskOutcome:
-    """What came of the whole; told, if its parts alone do not tell it."""
+    """The outcome of the whole task; told, unless the parts have already told it."""
     command = whole.command
     last = (whole.parts if command.conditional else whole.done or whole.parts)[-1]
     wanted = max(whole.wanted, command.number)

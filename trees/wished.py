@@ -1,4 +1,4 @@
-"""What is asked for while a task is at hand: in its place, before it, if it fails, or after it."""
+"""What is asked for during a task: done instead, before, if it fails, or afterwards."""
 
 from dataclasses import replace
 from itertools import chain
@@ -17,7 +17,7 @@ from trees.wishes import added, done_first, objects_of, replaced
 def take_in(
     context: MissionContext, said: Request, words: str, at_hand: Command | None, now: str
 ) -> str:
-    """Put it on the agenda where it belongs, and say so."""
+    """Put the request in the right place of the agenda; return the robot's reply."""
     commands = commands_in(resolved(said, of_all_spoken(context.situation, said)), words)
     if not isinstance(commands, tuple):
         return added(context, commands, now)
@@ -38,9 +38,9 @@ def take_in(
 
 
 def _elsewhere(context: MissionContext, commands: Commands, at_hand: Command | None) -> bool:
-    """Whether what is at hand is to go elsewhere: "put it on the sofa, not the desk".
+    """Whether the current task gets another goal: "put it on the sofa, not the desk".
 
-    Tasks that wait, and whose things are to go elsewhere, are struck out.
+    Drops the waiting tasks whose things get another goal.
     """
 
     def is_changed(before: Command) -> bool:
@@ -54,7 +54,7 @@ def _elsewhere(context: MissionContext, commands: Commands, at_hand: Command | N
 
 
 def _in_its_stead(context: MissionContext, said: Request, at_hand: Command) -> bool:
-    """Whether a certain thing is wanted instead of that at hand: "the drill, not the hammer"."""
+    """Whether a certain thing replaces that of the current task: "the drill, not the hammer"."""
     things = [t for task in said.tasks if task.things for t in task.things.members]
     certain = (t for t in things if t.definite and t.number is None)
     left_out = (but.words for thing in certain for but in thing.exceptions if but.words)
@@ -62,7 +62,7 @@ def _in_its_stead(context: MissionContext, said: Request, at_hand: Command) -> b
 
 
 def _lets_go(context: MissionContext, commands: Commands) -> bool:
-    """Whether what is in the hand is to be put down: now, and not when it is there."""
+    """Whether the held thing is to be put down, which is done at once, not after the task."""
     match commands:
         case [[Command(kind=CommandKind.PUT_DOWN)]]:
             return context.situation.hand.in_hand is not None
@@ -70,9 +70,9 @@ def _lets_go(context: MissionContext, commands: Commands) -> bool:
 
 
 def _if_it_fails(context: MissionContext, commands: Commands, at_hand: Command) -> Command | None:
-    """The task at hand with what is to be done if the thing is not there; None if that is unasked.
+    """The current task with a deed for its failure: "if you cannot find it, bring the mug".
 
-    As in "if you cannot find it, bring the mug".
+    None if the commands are no such deed.
     """
     match commands:
         case [[Command(kind=CommandKind.CHECK, conditional=True, unless=Command()) as command]]:
@@ -89,7 +89,7 @@ def _if_it_fails(context: MissionContext, commands: Commands, at_hand: Command) 
 def _instead_of(
     context: MissionContext, alone: str, commands: Commands, at_hand: Command | None
 ) -> str:
-    """Do these, and leave alone what is named: it may be what the task at hand is about."""
+    """Do the commands, and drop the task about `alone`, which may be the current one."""
     if at_hand and is_about(context, alone, at_hand):
         return replaced(context, commands)
     said = refused(context, alone, at_hand)

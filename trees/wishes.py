@@ -1,4 +1,4 @@
-"""What is wished while the robot is at something: at once, first, afterwards, or less of it."""
+"""Changes to the agenda during a task: something at once, first, or afterwards; or less."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -14,14 +14,14 @@ from trees.telling import number as in_letters
 
 
 def replaced(context: MissionContext, commands: Commands, instead: str = " instead") -> str:
-    """Do these at once in place of the task at hand."""
+    """Do the commands instead of the current task."""
     first, *others = chain.from_iterable(commands)
     context.situation.agenda.replace(first, others)
     return f"All right: I {in_one_breath(context, (first, *others))}{instead}."
 
 
 def done_first(context: MissionContext, commands: Commands, at_hand: Command) -> str:
-    """Do these at once, and the task at hand after them."""
+    """Do the commands first, and the current task after them."""
     first, *others = chain.from_iterable(commands)
     agenda = context.situation.agenda
     agenda.tasks[:] = [t for t in agenda.tasks if not _same(t.command, (first, *others))]
@@ -32,9 +32,9 @@ def done_first(context: MissionContext, commands: Commands, at_hand: Command) ->
 
 
 def waiting_first(context: MissionContext, things: Things, at_hand: Command, now: str) -> str:
-    """Do what these things are about before all else; empty if it was not to be done.
+    """Do the tasks about these things first; empty if there are none.
 
-    If that is what is at hand, it goes on, and `now` says so.
+    If that is the current task, nothing changes, and the reply is `now`.
     """
     wanted = (at_hand, *(task.command for task in context.situation.agenda.whole_tasks))
     wishes = [
@@ -50,7 +50,7 @@ def waiting_first(context: MissionContext, things: Things, at_hand: Command, now
 
 
 def only_so_many(context: MissionContext, number: int, at_hand: Command) -> str:
-    """Do no more of them than so many, those that are done included; empty if it were no fewer."""
+    """Limit the number of things, including those that are done; empty if that is no reduction."""
     agenda = context.situation.agenda
     if agenda.wholes:
         if agenda.wholes[-1].wanted <= number:
@@ -72,14 +72,14 @@ def only_so_many(context: MissionContext, number: int, at_hand: Command) -> str:
 
 
 def still_held(context: MissionContext) -> str:
-    """What is in the hand when the task at hand is taken back, as one more sentence."""
+    """What is in the hand when the current task is taken back, as a further sentence."""
     held = context.situation.hand.in_hand
     is_held = held and context.situation.agenda.taken_back
     return f" I still hold {context.say.the(held or '')}." if is_held else ""
 
 
 def _same(command: Command, others: Sequence[Command]) -> bool:
-    """Whether it is one of the others, however it was said."""
+    """Whether the command is one of the others, whatever its wording."""
     return replace(command, words="") in [replace(one, words="") for one in others]
 
 
@@ -102,12 +102,12 @@ def added(context: MissionContext, commands: Commands | str | None, now: str) ->
 
 
 def named_in(context: MissionContext, words: str) -> set[str]:
-    """The things that words name."""
+    """The objects that the words name."""
     names = context.knowledge.names_in(NEGATION.sub(" ", words.lower().replace("_", " ")))
     return {one for name in names for one in context.knowledge.objects_named(name)}
 
 
 def objects_of(context: MissionContext, command: Command) -> set[str]:
-    """The things that it may be about."""
+    """The objects that the command may be about."""
     names = command.among or (command.target,)
     return {one for name in names for one in context.knowledge.objects_named(name)}

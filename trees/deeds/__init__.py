@@ -1,4 +1,4 @@
-"""What the robot can do with a thing, a file a verb; a new one is entered here."""
+"""The verbs: what the robot can do, one file for each; a new verb is added to this list."""
 
 from trees.deeds.bring import Bring
 from trees.deeds.check import CheckWhether
@@ -17,9 +17,9 @@ DEEDS: tuple[Deed, ...] = (
     *(Bring(), Find(), Take(), PutDown(), Put(), PutBack(), Go()),
     *(Count(), TellWhatIsThere(), CheckWhether(), Clear()),
 )
-"""In the order in which the tree has them."""
+"""In the order in which the tree tries them."""
 
 
 def deed_of(kind: str) -> Deed:
-    """How it is done."""
+    """The deed that carries out this kind of command."""
     return next(deed for deed in DEEDS if deed.kind == kind)

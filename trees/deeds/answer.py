@@ -1,6 +1,6 @@
-"""What questions that are answered by looking have in common: look, come back, answer.
+"""What all questions have in common that are answered by looking: look, come back, answer.
 
-If there is more to do, the answer is told on the way.
+If there is more to do, the robot tells the answer on the way.
 """
 
 from abc import abstractmethod
@@ -20,10 +20,10 @@ from trees.telling import tell
 
 
 class Answer(Deed):
-    """A question about what is somewhere. Only what was seen is told, and what could not be."""
+    """A question about what is somewhere. Tells only what was seen, and what could not be seen."""
 
     def ways(self, context: MissionContext) -> Iterable[Behaviour]:
-        """Nothing is touched for this."""
+        """One way: look at the places, come back, tell. Nothing is touched."""
         yield sequence(
             str(self.kind),
             asked_to(context, self.kind),
@@ -39,15 +39,15 @@ class Answer(Deed):
         )
 
     def is_enough(self, situation: Situation) -> bool:
-        """Whether the answer is known before all places were looked at."""
+        """Whether the answer is certain before all places were looked at."""
         return False
 
     def is_true(self, outcome: Outcome | TaskOutcome, whereabouts: str) -> bool:
-        """One thing does not tell."""
+        """Never: the place of one thing cannot decide it; see `is_true_of`."""
         return False
 
     def is_true_of(self, outcome: Outcome | TaskOutcome, where: Callable[[str], str]) -> bool:
-        """The things are where the robot has looked; and no others that it was asked for."""
+        """True if each thing is where the robot looked, and none that was asked for is missing."""
         if isinstance(outcome, Outcome):
             [outcome] = outcome.tasks
         there = {name for name in outcome.among if where(name) in outcome.visited}
@@ -55,16 +55,16 @@ class Answer(Deed):
         return self.agrees(named, there) and all(where(name) in outcome.visited for name in named)
 
     def agrees(self, named: set[str], there: set[str]) -> bool:
-        """Whether the things that were named answer for those that are there."""
+        """Whether the things that the robot named are the right answer for those that are there."""
         return not there - named
 
     @abstractmethod
     def answer(self, context: MissionContext) -> tuple[str, str]:
-        """A sentence that answers, and why it is no answer to what was asked; empty if it is."""
+        """The answer as a sentence, and why it may be wrong; empty if it is complete."""
 
 
 class Tell(Step):
-    """Tells the answer; fails if it is none, or may be wrong because not all was seen.
+    """Tells the answer; fails if it may be wrong because not all was seen.
 
     Reads survey.seen and search.looks; writes ending.reason.
     """
@@ -75,12 +75,12 @@ class Tell(Step):
         context: MissionContext,
         answer: Callable[[MissionContext], tuple[str, str]],
     ) -> None:
-        """`answer` makes it of what was seen."""
+        """`answer` makes the sentence from what was seen, as `Answer.answer` does."""
         super().__init__(name, context)
         self._answer = answer
 
     def update(self) -> Status:
-        """What was seen is told in either case."""
+        """Tell the answer; if it is incomplete, fail with what was seen as the reason."""
         said, why_not = self._answer(self.context)
         if why_not:
             return self.fail(f"{said.rstrip('.')}; {why_not}")
@@ -90,10 +90,10 @@ class Tell(Step):
 
 
 class NotBack(Tell):
-    """Says what was seen although the robot could not come back to tell it; always fails."""
+    """Tells what was seen although the robot could not come back; always fails."""
 
     def update(self) -> Status:
-        """Who asks wants to know it."""
+        """Give the answer as the reason: the person wants to know it, wherever the robot is."""
         said, why_not = self._answer(self.context)
         seen = "; ".join(filter(None, (said.rstrip("."), why_not)))
         return self.fail(f"{seen}, but {self.why_before()}")

@@ -13,15 +13,15 @@ class CheckWhether(Answer):
     kind = CommandKind.CHECK
 
     def is_enough(self, situation: Situation) -> bool:
-        """One that was seen is enough."""
+        """It is, as soon as one such thing was seen."""
         return bool(situation.survey.found)
 
     def agrees(self, named: set[str], there: set[str]) -> bool:
-        """One is enough."""
+        """One thing is enough for a yes."""
         return bool(named) == bool(there)
 
     def answer(self, context: MissionContext) -> tuple[str, str]:
-        """That there is none is known only if all was seen."""
+        """Yes with what was seen; a "no" only if all was seen."""
         if found := context.situation.survey.found:
             return f"Yes: {found_where(found, context.say)}.", ""
         none, unseen = nothing_there(context), not_seen(context)

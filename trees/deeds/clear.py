@@ -143,7 +143,7 @@ class NothingThere(Step):
     """
 
     def update(self) -> Status:
-        """Say so."""
+        """Tell that it is clear."""
         if why := not_seen(self.context):
             return self.fail(f"{nothing_there(self.context)}; {why}")
         said = f"{nothing_there(self.context)}; it is clear."

@@ -12,7 +12,7 @@ class Count(Answer):
     kind = CommandKind.COUNT
 
     def answer(self, context: MissionContext) -> tuple[str, str]:
-        """With what was not seen, it may be more."""
+        """The number; it may be more if not all was seen."""
         found = context.situation.survey.found
         none = f"{nothing_there(context)}."
         counted = f"I count {len(found)}: {found_where(found, context.say)}." if found else none

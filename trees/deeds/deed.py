@@ -57,7 +57,7 @@ class Conclude(Step):
 
 
 def asked_to(context: MissionContext, kind: CommandKind) -> Check:
-    """Whether this kind of deed was asked for."""
+    """Whether the command is of this kind."""
     return Check(f"asked to {kind}", context, lambda: context.situation.request.asks_to(kind))
 
 

@@ -24,7 +24,7 @@ class Go(Deed):
     kind = CommandKind.GO
 
     def ways(self, context: MissionContext) -> Iterable[Behaviour]:
-        """Of a room, any furniture will do."""
+        """Drive to the place; for a room, to any furniture in it."""
         request = context.situation.request
 
         def choose(place: str) -> None:
@@ -52,12 +52,12 @@ class Go(Deed):
         )
 
     def is_true(self, outcome: Outcome | TaskOutcome, whereabouts: str) -> bool:
-        """It got there last, as far as it tells: the truth of things does not say."""
+        """Judged by what the robot tells: the true places of things do not say where it is."""
         return outcome.goals == (PERSON,) or outcome.visited[-1:] in [(g,) for g in outcome.goals]
 
 
 class GoThere(DriveToGoal):
-    """Goes to the goal at hand, and counts it as visited.
+    """Drives to the current goal, and counts it as visited.
 
     Reads request.goal; writes search.looks.
     """
@@ -65,14 +65,14 @@ class GoThere(DriveToGoal):
     activity = Activity.DRIVING
 
     def ended(self, result: Result) -> Status:
-        """Only what was reached counts."""
+        """Count the place if it was reached."""
         place = self.situation.request.goal
         if isinstance(result, Succeeded) and place != PERSON:
             self.situation.search.looks.reached(place)
         return super().ended(result)
 
     def note_failure(self, why: str) -> None:
-        """A thing in the hand stays there."""
+        """Note that the place was not reached, and nothing about the hand."""
         self.situation.search.looks.not_reached(self.situation.request.goal, why)
 
 
@@ -83,5 +83,5 @@ class NotThere(Step):
     """
 
     def update(self) -> Status:
-        """All that would have done."""
+        """Sum up the places that were tried."""
         return self.fail(self.situation.search.so_far(None, self.context.say))

@@ -5,7 +5,7 @@ from trees.deeds.put import Put
 
 
 class PutBack(Put):
-    """As in "Put the mug back". Where that is, `trees/places.py` finds out."""
+    """As in "Put the mug back". `trees/places.py` finds out where that is."""
 
     kind = CommandKind.PUT_BACK
     did = "put back"

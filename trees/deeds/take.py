@@ -1,4 +1,4 @@
-"""Take a thing: pick it up, and hold it."""
+"""Take a thing: pick it up and hold it."""
 
 from collections.abc import Iterable
 

@@ -11,12 +11,12 @@ Lengths = tuple[float, ...]
 
 
 def area(lengths: Lengths) -> float:
-    """Of the side that is largest (square metres)."""
+    """Area of the largest side (m^2), from lengths in descending order."""
     return lengths[0] * lengths[1]
 
 
 def width(lengths: Lengths) -> float:
-    """Across the longest direction (m)."""
+    """Width across the longest direction (m)."""
     return lengths[1]
 
 
@@ -25,9 +25,9 @@ MEASURES: Mapping[str, tuple[Callable[[Lengths], float], bool]] = {
     "smallest": (area, False),
     "thinnest": (width, False),
 }
-"""By what the eyes tell which of several things is meant, and whether by the most of it."""
+"""How to compare things by sight: the measure, and whether the largest value is meant."""
 CLEARLY = 1.1
-"""By which factor it has to differ from the next one: what is seen of a thing is a part of it."""
+"""The factor by which the first must differ from the second: only a part of a thing is visible."""
 
 
 class TellWhatIsThere(Answer):
@@ -54,7 +54,7 @@ class TellWhatIsThere(Answer):
 
 
 def utmost(superlative: str, names: list[str], lengths: Mapping[str, Lengths]) -> str:
-    """Which of them it is, as far as it is seen; empty if the eyes do not tell."""
+    """Which of the things it is, judged by what is visible; empty if that does not decide it."""
     if superlative not in MEASURES or not all(lengths.get(name) for name in names):
         return ""
     measure, most = MEASURES[superlative]
