@@ -1,31 +1,31 @@
 """robot-executive: a behaviour-tree executive for home robots.
 
-The typical use: say with what, then say what.
+Typical use: choose the settings, then give a command.
 
     from executive import Session, load_settings
 
     with Session(load_settings(world="fake", user="oracle")) as robot:
         outcome = robot.run("Bring a sugar_box")
 
-This file is the library's table of contents. Nothing is imported before its name is used, so that
+This file is the library's table of contents. A name is imported when it is first used, so that
 `import executive` costs nothing and needs neither simulator nor model.
 
     run missions         Session, Settings, load_settings, KnowledgeSystem
-    what came of it      Outcome, MissionStatus, Source
-    to be implemented    Robot, Camera, Detector, Perception, LanguageModel, User, PlaceSource,
+    their outcomes       Outcome, MissionStatus, Source
+    to implement         Robot, Camera, Detector, Perception, LanguageModel, User, PlaceSource,
                          Clock, Sink
-    a robot of one's own Setup, Embodiment
-    how slow things end  Inbox, StopRequested
-    what a robot is told Goal: DriveTo, LookAt, Pick, PutDown, Halt; DELIVERY, FLOOR
-    what may come back   Result: Succeeded, Failed, Saw, Replied, Scored, Answered
-    seeing               CameraPerception, Frame, Intrinsics, Pose, Detection, Box
+    your own robot       Setup, Embodiment
+    events               Inbox, StopRequested
+    goals of a robot     Goal: DriveTo, LookAt, Pick, PutDown, Halt; DELIVERY, FLOOR
+    results of requests  Result: Succeeded, Failed, Saw, Replied, Scored, Answered
+    perception           CameraPerception, Frame, Intrinsics, Pose, Detection, Box
     language             ChatRequest, RankRequest, Message, Usage
     the person           Question, QuestionKind
-    telling the logs     Recorder
+    the log              Recorder
     errors               ExecutiveError, InputError, ModelError
 
-Recorded missions run again by `from executive.replay import replay`: the function would hide its
-own package here. Conformance suites for what is to be implemented are in `executive.testing`.
+To replay recorded missions, use `from executive.replay import replay`: here, the function would
+hide its own package. Conformance suites for your implementations are in `executive.testing`.
 """
 
 from importlib import import_module
@@ -141,11 +141,11 @@ _MODULES = {
     ),
     "logs.recorder": ("Sink",),
 }
-"""The names of each module."""
+"""The names that each module provides."""
 
 
 def __getattr__(name: str) -> object:
-    """Import what is asked for (PEP 562)."""
+    """Import a name when it is first used (PEP 562)."""
     for module, names in _MODULES.items():
         if name in names:
             value = globals()[name] = getattr(import_module(module), name)
@@ -154,5 +154,5 @@ def __getattr__(name: str) -> object:
 
 
 def __dir__() -> list[str]:
-    """What there is, imported or not."""
+    """All names, imported or not."""
     return sorted({*globals(), *__all__})

@@ -1,10 +1,10 @@
-"""Where a thing may be: one belief over the places of a home, with who says how much of it.
+"""Where a thing may be: a probability distribution over places, with the share of each source.
 
-The sources are heard in the order of how far they are to be believed. Each takes its part of what
-those before it have left, and spreads it over the places that it names; a source that says
-something of every place takes all. What is left at the end is spread evenly.
+Sources are applied in order of trust. Each takes its share of the probability that the sources
+before it have left, and spreads it over the places that it names; a source that covers every place
+takes all. What is left at the end is spread evenly.
 
-Pure functions of numbers: nothing of robots, trees or clocks.
+Pure functions of numbers, independent of robots, trees and clocks.
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -12,25 +12,24 @@ from dataclasses import dataclass, replace
 from typing import Self
 
 ELSEWHERE = 0.05
-"""How likely a thing is at no place that the robot may look at, as long as nobody said where."""
+"""Probability that a thing is at no known place, as long as no source has said where it is."""
 MISSED = 0.02
-"""How often a thing is overlooked that is in view: docs/detector.md has a recall of 0.978."""
+"""Probability that a thing in view is not detected: docs/detector.md has a recall of 0.978."""
 ANYWHERE = "anywhere"
-"""Who says so of what nobody says: a thing has to be somewhere."""
+"""The source of the probability that no source has assigned."""
 PLAN = "plan"
-"""Who says where to look next, by all that is believed and by the ways."""
+"""The source of a place that the plan chose, from the belief and the drives."""
 
 
 @dataclass(frozen=True, slots=True)
 class Statement:
-    """What one source says.
+    """What one source says about where a thing is.
 
     Attributes:
-        source: who.
-        weights: the places that it names, with how likely they are beside one another.
-        trust: how likely it is right that the thing is at one of them; 1: it says something of all.
-        orders: whether its weights alone say which of its places is likeliest. If not, they are
-            multiplied by those of a source that says something of every place.
+        weights: the places that it names, with relative probabilities.
+        trust: probability that the thing is at one of them; 1: the source covers every place.
+        orders: whether its weights alone rank its places. If not, they are multiplied by those of
+            the source that covers every place.
     """
 
     source: str
@@ -39,7 +38,7 @@ class Statement:
     orders: bool = True
 
     def of(self, has: Callable[[str], bool]) -> Self:
-        """What it says of some places only; the rest of its word is left to other sources."""
+        """The statement about some of its places only, with its trust reduced accordingly."""
         weights = tuple((place, weight) for place, weight in self.weights if has(place))
         part = _total(weights) / _total(self.weights) if _total(weights) > 0 else 0.0
         return replace(self, weights=weights, trust=self.trust * part)
@@ -47,7 +46,7 @@ class Statement:
 
 @dataclass(frozen=True, slots=True)
 class Share:
-    """How much of a place's probability a source gave."""
+    """The part of a place's probability that comes from one source."""
 
     source: str
     probability: float
@@ -55,7 +54,7 @@ class Share:
 
 @dataclass(frozen=True, slots=True)
 class Likely:
-    """A place, how likely the thing is there, and who says so: the one who gave most first."""
+    """A place, the probability that the thing is there, and its shares, the largest first."""
 
     place: str
     probability: float
@@ -63,29 +62,29 @@ class Likely:
 
     @property
     def source(self) -> str:
-        """Who gave most of it."""
+        """The source of the largest share."""
         return self.shares[0].source if self.shares else ANYWHERE
 
     def __str__(self) -> str:
-        """The place, its probability, and what each source gave."""
+        """The place, its probability and its shares."""
         said = ", ".join(f"{s.source} {s.probability:.2f}" for s in self.shares)
         return f"{self.place} {self.probability:.2f}" + (f" ({said})" if said else "")
 
 
 @dataclass(frozen=True, slots=True)
 class Belief:
-    """How likely a thing is at each place, the likeliest first, and elsewhere: all sum to 1."""
+    """Probability of a thing at each place, the likeliest first, and elsewhere; the sum is 1."""
 
     places: tuple[Likely, ...] = ()
     elsewhere: float = 1.0
 
     def of(self, place: str) -> Likely:
-        """What is believed of a place; nothing, if it is none of these."""
+        """The entry of a place; with probability 0 if the belief has none."""
         return next((likely for likely in self.places if likely.place == place), Likely(place, 0.0))
 
 
 def in_order(places: Iterable[str], factor: float = 0.5) -> tuple[tuple[str, float], ...]:
-    """Weights of places that a source names in an order: each has `factor` of the one before."""
+    """Weights for places in order: each has `factor` times the weight of the one before."""
     return tuple((place, factor**rank) for rank, place in enumerate(dict.fromkeys(places)))
 
 
@@ -95,15 +94,14 @@ def believe(
     left: Mapping[str, float] | None = None,
     elsewhere: float = ELSEWHERE,
 ) -> Belief:
-    """The belief that follows from what was said and seen.
+    """Compute the belief from statements and looks.
 
     Args:
-        statements: the most trusted first. Of those that say something of every place, the first
-            counts.
-        places: where a thing may be at all; those that a statement names are, too.
-        left: of places that were looked at in vain, what is left of their probability: how likely
-            the look was to miss the thing. Who says so is believed less from then on.
-        elsewhere: what is left for no place at all, of what no statement before took.
+        statements: the most trusted first. Of those that cover every place, only the first counts.
+        places: where a thing may be at all, besides the places in statements.
+        left: for places where a look found nothing, the probability that the look missed the
+            thing. It multiplies the place's probability, so that its sources lose weight.
+        elsewhere: the share for no place at all, of what the statements have left.
     """
     home = tuple(dict.fromkeys(places))
     given: dict[str, dict[str, float]] = {place: {} for place in home}
@@ -120,7 +118,7 @@ def believe(
 
 
 def _meant(said: Statement, base: Mapping[str, float]) -> dict[str, float]:
-    """The weights of a statement, times those of who says something of every place if need be."""
+    """The weights of a statement, multiplied by `base` if they do not rank their places."""
     weights = {place: weight for place, weight in said.weights if weight > 0}
     if said.orders:
         return weights

@@ -1,4 +1,4 @@
-"""Where is kept what can be computed again: safe to delete, and used only if it is one's own."""
+"""The cache folder: safe to delete, and used only if no other user can write to it."""
 
 import os
 from pathlib import Path
@@ -10,18 +10,18 @@ _WRITTEN_BY_OTHERS = 0o022
 
 
 def cache_folder(part: str = "") -> Path | None:
-    """The folder, or a part of it, made if it is not there.
+    """The cache folder, or a folder in it; made if it does not exist.
 
-    It is the one that `EXECUTIVE_CACHE` names (`none`: there is none), else `robot-executive` in
-    `XDG_CACHE_HOME`, else in `~/.cache` (XDG Base Directory Specification). None if there can be
-    none, or others may write in it.
+    It is the folder that `EXECUTIVE_CACHE` names (`none`: no cache), else `robot-executive` in
+    `XDG_CACHE_HOME`, else in `~/.cache` (XDG Base Directory Specification). None if it cannot be
+    made, or if other users may write to it.
     """
     try:
         if (folder := _named()) is None:
             return None
         own = _own(folder)
         return folder / part if own and (not part or _own(folder / part)) else None
-    except (OSError, RuntimeError):  # the latter if nobody knows where home is
+    except (OSError, RuntimeError):  # RuntimeError: the home folder is unknown
         return None
 
 
@@ -35,7 +35,7 @@ def _named() -> Path | None:
 
 
 def _own(folder: Path) -> bool:
-    """Make it if it is not there; whether it is ours alone."""
+    """Make the folder if it does not exist; return whether only we can write to it."""
     folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     about = folder.stat()
     return about.st_uid == os.getuid() and not about.st_mode & _WRITTEN_BY_OTHERS

@@ -1,4 +1,4 @@
-"""Colours, and what they are called."""
+"""Names of colours."""
 
 from colorsys import rgb_to_hsv
 
@@ -15,19 +15,19 @@ _HUES = (
     (345, "pink"),
     (360, "red"),
 )
-"""Up to which hue (degrees) a colour has this name."""
+"""The largest hue (degrees) of each name."""
 COLORS = ("black", "grey", "white", "brown", *dict.fromkeys(name for _, name in _HUES))
 OTHER_SPELLINGS = {"gray": "grey"}
 _BLACK_BELOW, _WHITE_FROM = 0.2, 0.8
-"""Of the brightest channel; what has no hue and is between them is grey."""
+"""Limits of brightness, the largest channel; a colour without hue between them is grey."""
 _COLORED_FROM = 0.15
-"""Of saturation."""
+"""The smallest saturation at which a colour has a hue."""
 _BROWN_BELOW, _PINK_BELOW = 0.7, 0.5
-"""Dark orange is brown, pale red is pink: of the brightest channel, and of saturation."""
+"""Orange below this brightness is brown; bright red below this saturation is pink."""
 
 
 def color_name(red: float, green: float, blue: float) -> str:
-    """The name of `COLORS` that is nearest to a colour, of channels in [0, 1]."""
+    """The name in `COLORS` for a colour with channels in [0, 1]."""
     hue, saturation, brightness = rgb_to_hsv(red, green, blue)
     if brightness < _BLACK_BELOW:
         return "black"

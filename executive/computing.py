@@ -1,7 +1,7 @@
-"""What takes the machine long and the robot no time: computed beside the thread that ticks.
+"""Long computations on worker threads, during which mission time stands still.
 
-The thread that ticks sleeps meanwhile, hears a stop at once, and lets no mission time pass: so the
-same seed makes the same mission, however fast the machine is.
+The ticking thread sleeps meanwhile, wakes at once for a stop, and does not advance mission time. So
+the same seed gives the same mission, however fast the machine is.
 """
 
 import atexit
@@ -14,24 +14,24 @@ from typing import Any, Generic, TypeVar
 T = TypeVar("T")
 
 IDLE_S = 1.0
-"""After this time without work a thread ends."""
+"""A worker thread ends after this time without work."""
 LEAVING_S = 0.3
-"""The longest that anything waits for what was given up."""
+"""The longest wait for an abandoned computation to end."""
 
 _here = threading.local()
 _under_way: "set[Computation[Any]]" = set()
-"""Everything that runs now (a set changes in one step: no lock is needed)."""
+"""All running computations. Adding to a set and removing are atomic, so it needs no lock."""
 
 
 class GivenUpError(Exception):
-    """Nobody waits for this computation any more."""
+    """Raised inside a computation that was abandoned."""
 
 
 class Computation(Generic[T]):
-    """One piece of work, what came of it, and whether anybody still wants it."""
+    """One piece of work, with its result, and whether it was abandoned."""
 
     def __init__(self, work: Callable[[], T]) -> None:
-        """Not begun yet."""
+        """Prepare to run `work`."""
         self._work = work
         self._results: list[T] = []
         self._error: Exception | None = None
@@ -40,18 +40,18 @@ class Computation(Generic[T]):
         self.given_up = False
 
     def result(self) -> T:
-        """What came of it; raises what the work raised."""
+        """The result; raises what the work raised."""
         if self._error is not None:
             raise self._error
         return self._results[0]
 
     def settle(self) -> None:
-        """Do what the work put off; called on the thread that ticks."""
+        """Make the calls that the work deferred; called on the ticking thread."""
         for call in self._afterwards:
             call()
 
     def run(self) -> None:
-        """Work it out; on a thread of its own."""
+        """Do the work; called on the worker thread."""
         _here.computation = self
         try:
             if not self.given_up:
@@ -65,23 +65,23 @@ class Computation(Generic[T]):
             self._gone.set()
 
     def put_off(self, call: Callable[[], object]) -> None:
-        """Have this done once the work is finished."""
+        """Defer a call until `settle`."""
         self._afterwards.append(call)
 
     def leave(self, seconds: float) -> None:
-        """Give it up, and wait a little until it has noticed."""
+        """Abandon the work, and wait up to `seconds` for it to end."""
         self.given_up = True
         self._gone.wait(seconds)
 
 
 class Worker:
-    """Computes one thing at a time; what was given up is waited for before the next begins.
+    """Runs computations one at a time; an abandoned one has to end before the next begins.
 
-    Its thread holds up nobody: a process ends without it, and so does what is idle for a while.
+    Its thread is a daemon, so that the process can end without it, and ends when it is idle.
     """
 
     def __init__(self, name: str) -> None:
-        """Compute nothing yet."""
+        """Prepare a worker; its thread starts with the first computation."""
         self._name = name
         self._jobs: queue.SimpleQueue[tuple[Computation[Any], Callable[[], None]]]
         self._jobs = queue.SimpleQueue()
@@ -90,7 +90,7 @@ class Worker:
         self._last: Computation[Any] | None = None
 
     def start(self, computation: Computation[Any], done: Callable[[], None]) -> None:
-        """Begin as soon as all before is done; `done` is called on the other thread at the end."""
+        """Queue a computation; at its end, `done` is called on the worker thread."""
         self._last = computation
         with self._lock:
             self._jobs.put((computation, done))
@@ -114,16 +114,16 @@ class Worker:
             done()
 
     def close(self) -> None:
-        """Give up what is computed, and wait a little for it."""
+        """Abandon the last computation, and wait up to `LEAVING_S` for it to end."""
         if self._last is not None:
             self._last.leave(LEAVING_S)
 
 
 def still_wanted() -> None:
-    """Go on; called now and then by whatever computes for long.
+    """Check whether to go on; long computations call this regularly.
 
     Raises:
-        GivenUpError: if this is part of a computation that was given up.
+        GivenUpError: if the computation on this thread was abandoned.
     """
     computation = getattr(_here, "computation", None)
     if computation is not None and computation.given_up:
@@ -131,7 +131,7 @@ def still_wanted() -> None:
 
 
 def afterwards(call: Callable[[], object]) -> None:
-    """Do this on the thread that ticks: at once if this is it, else when all is computed."""
+    """Make a call on the ticking thread: at once if this is it, else after the computation."""
     computation = getattr(_here, "computation", None)
     if computation is None:
         call()
@@ -141,7 +141,7 @@ def afterwards(call: Callable[[], object]) -> None:
 
 @atexit.register
 def _leave() -> None:
-    """Let go before the interpreter is taken apart under the feet of a running library."""
+    """Abandon all at exit: native code must not run while the interpreter shuts down."""
     latest = time.monotonic() + LEAVING_S
     for computation in tuple(_under_way):
         computation.given_up = True

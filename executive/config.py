@@ -1,6 +1,6 @@
-"""Every setting in one model: from a TOML file, the environment, the command line; last wins.
+"""All settings in one model: from a TOML file, the environment, the command line; the last wins.
 
-`--help` is made of the fields alone. So what reads the environment, and what checks values, is
+`--help` only needs the fields. So the code that reads the environment and validates values is
 imported and built when the first settings are made.
 """
 
@@ -36,21 +36,21 @@ from executive.toml_file import in_words as in_tomls_words
 from executive.toml_file import misread, read_toml, shown
 
 PREFIX = "EXECUTIVE_"
-"""How the environment's variables of settings begin."""
+"""Prefix of the environment variables for settings."""
 HEADERS = "EXECUTIVE_ROBOT_HEADERS"
 NO_SETTINGS = frozenset((LLM_KEY, EARS_KEY, HEADERS, CACHE))
-"""Variables that begin so, too: secrets, which stand in no file, and a folder of the machine."""
+"""Other variables with this prefix: secrets, which are in no file, and the cache folder."""
 JSON_EXAMPLES = """lists and tables are JSON there: '["a.owl"]', '{"mug": "desk"}'"""
 
 
 @dataclass(frozen=True, slots=True)
 class Option:
-    """What the command line says of a setting; one without it is set in a file or the environment.
+    """The command-line option of a setting; settings without it have no option.
 
     Attributes:
-        metavar: stands for the value.
-        help: instead of the description and the default.
-        after: the setting that it is listed after (default: the one before it).
+        metavar: placeholder for the value in `--help`.
+        help: replaces the description and the default.
+        after: the setting after which `--help` lists it (default: the one before it).
     """
 
     metavar: str = ""
@@ -67,13 +67,13 @@ class KnowledgeSystem(StrEnum):
 
 
 Whole = Annotated[int, Field(lt=2**63)]
-"""A whole number that fits into a TOML file, such as that of a run's settings."""
+"""An integer that fits into a TOML file, such as that of a run's settings."""
 
 
 class Settings(BaseModel):
-    """What a mission is run with. Environment variables are named EXECUTIVE_HOME and so on.
+    """The settings of missions. Environment variables are named EXECUTIVE_HOME and so on.
 
-    A setting is one field. One that is annotated with an `Option` is an option of the command line.
+    Each field is a setting. If it is annotated with an `Option`, the command line has it, too.
     """
 
     model_config = ConfigDict(
@@ -230,7 +230,7 @@ class Settings(BaseModel):
     @model_validator(mode="before")
     @classmethod
     def _with_environment(cls, given: Any) -> Any:
-        """What is not given is taken from the environment."""
+        """Take settings that were not given from the environment."""
         return {**_said_in_environment(cls), **given} if isinstance(given, dict) else given
 
     @field_validator("home", "prompts", "ycb", "memory", "home_state", "runs", mode="before")
@@ -244,7 +244,7 @@ class Settings(BaseModel):
     @field_validator("kb", "fault", mode="before")
     @classmethod
     def _one_alone(cls, value: Any) -> Any:
-        """One of what is repeatable needs no list."""
+        """Accept a single value for a repeatable setting."""
         return (value,) if isinstance(value, str | Path) else value
 
     @field_validator("llm")
@@ -301,22 +301,22 @@ class Settings(BaseModel):
 
     @property
     def body(self) -> str:
-        """What the robot's body is called in messages."""
+        """The name of the robot's body for messages."""
         return f"the robot at {self.robot}" if self.robot else f"the world {self.world}"
 
     @property
     def is_typed(self) -> bool:
-        """Whether standard input is what a person types; else it is the microphone's sound."""
+        """Whether standard input is typed text; else it is sound from the microphone."""
         return self.ears is None or self.microphone != "-"
 
     @property
     def uses_llm(self) -> bool:
-        """Whether a language model is part of this system."""
+        """Whether the system uses a language model."""
         return self.knowledge != KnowledgeSystem.OKB and self.llm != "none"
 
     @property
     def remembers(self) -> bool:
-        """Whether the model is given the dialogue so far."""
+        """Whether prompts for the model contain the dialogue so far."""
         return self.knowledge == KnowledgeSystem.OKB_LLM_MEM
 
     @property
@@ -330,10 +330,10 @@ class Settings(BaseModel):
 
 
 def load_settings(config: Path | None = None, **given: Any) -> Settings:
-    """Settings from the file, the environment, and `given` (what is None there was not given).
+    """Settings from the file, the environment, and `given`, in which None means not given.
 
     Raises:
-        InputError: names the setting, what is wrong with it, and what would be right.
+        InputError: if a setting is wrong; it names the setting and says what would be right.
     """
     from_file = read_toml(config) if config else {}
     given = {name: value for name, value in given.items() if value is not None}
@@ -361,17 +361,17 @@ def load_settings(config: Path | None = None, **given: Any) -> Settings:
 
 
 def in_words(fault: ErrorDetails) -> str:
-    """What is wrong with a setting, without pydantic's own words about it."""
+    """What is wrong with a setting, without pydantic's terms."""
     if fault["type"] == "extra_forbidden":
         return "is no setting"
     return in_tomls_words(fault["msg"])
 
 
 def _address(url: str, secret: str = LLM_KEY) -> str:
-    """The address of a server, which is written into each recording: so there is no secret in it.
+    """Validate the address of a server; as each recording contains it, it must have no secret.
 
     Raises:
-        ValueError: says what would be right, and nothing of the address.
+        ValueError: if it is wrong; says what would be right, without the address.
     """
     try:
         parts = urlsplit(url)
@@ -389,11 +389,11 @@ def _address(url: str, secret: str = LLM_KEY) -> str:
 
 
 def _said_in_environment(settings: type[Settings]) -> dict[str, Any]:
-    """What the environment has for each field, as it is written there, or of JSON.
+    """The environment's value of each field: a string, or parsed from JSON.
 
     Raises:
-        SettingsError: if something should be JSON, and is none.
-        InputError: if a table of it has a key twice, of which JSON would take the last.
+        SettingsError: if a value should be JSON and is not.
+        InputError: if a table has a key twice, of which JSON would take the last.
     """
     from pydantic_settings import EnvSettingsSource  # see above
 
@@ -412,10 +412,10 @@ def _said_in_environment(settings: type[Settings]) -> dict[str, Any]:
 
 
 def _environment() -> dict[str, Any]:
-    """The settings that the environment gives.
+    """The settings that the environment sets.
 
     Raises:
-        InputError: names the variable and what is wrong with it.
+        InputError: if a variable is wrong; names it.
     """
     from pydantic_settings import SettingsError
 
@@ -435,10 +435,10 @@ def _environment() -> dict[str, Any]:
 
 
 def _refuse_unknown(names: Iterable[str]) -> None:
-    """See that each variable that begins as ours do is one; what it holds may be a secret.
+    """Refuse unknown variables with our prefix, without showing values, which may be secrets.
 
     Raises:
-        InputError: if one is not.
+        InputError: if there is one.
     """
     known = {PREFIX + name.upper() for name in Settings.model_fields} | NO_SETTINGS
     for name in sorted(names):

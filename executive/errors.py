@@ -1,29 +1,29 @@
-"""What can go wrong before or beside a mission.
+"""The exceptions of the executive.
 
-    ExecutiveError            speaks to the person who can act: what, where, and what would be right
-    ├── InputError            a file, an option or a reply that came from outside is wrong
+    ExecutiveError            tells the person who can act what is wrong, where, and what is right
+    ├── InputError            a file, an option or a reply from outside is wrong
     ├── ModelError            the language model cannot be loaded or reached
-    └── UnreachableError      there is no way to the robot any more
+    └── UnreachableError      the robot cannot be reached any more
 
-A mission that merely does not succeed is no error: it ends with an Outcome.
+A mission that does not succeed is not an error: it ends with an Outcome.
 """
 
 from executive.text import printable
 
 
 class ExecutiveError(Exception):
-    """Root of all errors that are shown to the person as one sentence, without a traceback."""
+    """Base of all errors that the person sees as one sentence, without a traceback."""
 
 
 class InputError(ExecutiveError):
     """Something from outside (command, home file, ontology, config, log) is wrong."""
 
     def __init__(self, where: str, what: str, right: str = "") -> None:
-        """Say where the fault is, what it is, and what would be right."""
+        """Say where the error is, what is wrong, and what would be right."""
         super().__init__(where, what, right)
 
     def __str__(self) -> str:
-        """The three in one sentence, on one line that a terminal may have."""
+        """The three in one sentence, on one printable line."""
         where, what, right = self.args
         return printable(f"{where}: {what}" + (f"; {right}" if right else ""))
 
@@ -33,4 +33,4 @@ class ModelError(ExecutiveError):
 
 
 class UnreachableError(ExecutiveError):
-    """There is no way to the robot any more: nothing that it is asked for would be done."""
+    """The robot cannot be reached any more: it would do nothing that it is asked for."""

@@ -112,7 +112,7 @@ ON, OFF = "on", "off"
 
 @dataclass(frozen=True, slots=True)
 class Intervened:
-    """An experimenter stepped in.
+    """An experimenter intervened.
 
     Attributes:
         by: the experimenter.
@@ -260,7 +260,7 @@ class Inbox:
         sequel: Callable[[Computation[T]], None],
         request: int | None = None,
     ) -> Computation[T]:
-        """Have something computed, while mission time stands still.
+        """Queue a computation, during which mission time stands still.
 
         Args:
             worker: does it, as soon as the ticking thread sleeps.
@@ -324,7 +324,7 @@ class Inbox:
     def take_all(self) -> tuple[Event, ...]:
         """Take all events, the oldest first.
 
-        Ends of dropped requests are left out, and so is a second end of the same request.
+        Ends of dropped requests, and second ends of the same request, are left out.
         """
         self._collect()
         events = tuple(event for event in self._taken if self._close(event))

@@ -1,7 +1,6 @@
-"""Files from outside, read as far as they are what they say: plain files, not too large, text.
+"""Safe reading of files from outside, and atomic writing of our own.
 
-A named pipe, a device or a folder is never opened: reading one could wait, or go on, for ever.
-Files of ours are written whole, or not at all.
+Only regular files of limited size are read: a named pipe or a device could block, or never end.
 """
 
 import codecs
@@ -13,22 +12,22 @@ from pathlib import Path
 from executive.errors import InputError
 
 MOST_TEXT_BYTES = 4 * 2**20
-"""What a person writes by hand is smaller."""
+"""Files that a person writes by hand are smaller."""
 _WIDE = (codecs.BOM_UTF32_LE, codecs.BOM_UTF32_BE, codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
-"""How files begin that some editors save as "Unicode"."""
+"""Byte order marks of files that some editors save as "Unicode"."""
 
 
 def read_bytes(path: Path, most: int, where: str = "", right: str = "") -> bytes:
-    """The content of a plain file of at most so many bytes.
+    """The content of a regular file of at most `most` bytes.
 
     Args:
         path: the file.
-        most: bytes.
+        most: the largest size in bytes.
         where: what to call the file in messages (default: its path).
         right: what to give instead of a file that cannot be read.
 
     Raises:
-        InputError: if it cannot be read, is no plain file, or is larger.
+        InputError: if it cannot be read, is not a regular file, or is larger.
     """
     where = where or str(path)
     try:
@@ -47,19 +46,19 @@ def read_bytes(path: Path, most: int, where: str = "", right: str = "") -> bytes
 
 
 def read_text(path: Path, where: str = "", right: str = "", most: int = MOST_TEXT_BYTES) -> str:
-    """The text of a plain file, without a byte order mark.
+    """The text of a regular file, without a byte order mark.
 
     Raises:
-        InputError: as of `read_bytes`, or if it is not UTF-8 text.
+        InputError: as `read_bytes`, or if it is not UTF-8 text.
     """
     return decoded(read_bytes(path, most, where, right), where or str(path))
 
 
 def decoded(content: bytes, where: str) -> str:
-    """UTF-8 text, without a byte order mark.
+    """The content decoded as UTF-8, without a byte order mark.
 
     Raises:
-        InputError: if it is not.
+        InputError: if it is not UTF-8.
     """
     if content.startswith(_WIDE):
         raise InputError(where, "is not UTF-8 text: it is UTF-16 or UTF-32", "save it as UTF-8")
@@ -72,10 +71,10 @@ def decoded(content: bytes, where: str) -> str:
 
 
 def write_whole(file: Path, content: bytes) -> None:
-    """Write a file, all of it or nothing, whatever happens meanwhile; on the disk when it returns.
+    """Write a file atomically; it is on the disk when this returns.
 
     Raises:
-        OSError: if that fails; what was in the file is there still.
+        OSError: if that fails; the old content is still there.
     """
     new = file.with_name(f".{file.name}.{os.getpid()}.new")
     try:

@@ -1,7 +1,7 @@
-"""Points and frames: from pixels with depth to points in `map`, from one frame to another.
+"""Rigid transforms, and back-projection of pixels with depth to points in `map`.
 
-Importing SciPy takes as long as all of a mission in the instant world, which needs only little of
-it. So this little is written out here; it gives the same numbers to the last bit.
+Importing SciPy takes as long as a whole mission in the instant world, which needs only a few of its
+functions. They are written out here, and give the same numbers to the last bit.
 """
 
 import math
@@ -23,7 +23,7 @@ Floats = NDArray[np.float64]
 def back_project(
     frame: Frame, rows: NDArray[np.intp], columns: NDArray[np.intp]
 ) -> NDArray[np.float32]:
-    """Points in `map` (n, 3; metres) seen at these pixels; pixels without depth are left out."""
+    """Points in `map` (n, 3; metres) at these pixels; pixels without depth are left out."""
     depth = frame.depth[rows, columns]
     hit = np.isfinite(depth)
     in_camera = rays(frame.intrinsics, rows[hit], columns[hit]) * depth[hit, None]
@@ -31,7 +31,7 @@ def back_project(
 
 
 def back_project_grid(frame: Frame, rows: slice, columns: slice) -> Floats:
-    """Points in `map` (h, w, 3; metres) seen in a part of the picture; NaN without depth."""
+    """Points in `map` (h, w, 3; metres) of a part of the picture; NaN where there is no depth."""
     row, column = np.mgrid[rows, columns]
     depth = frame.depth[rows, columns].astype(np.float64).ravel()
     depth[~np.isfinite(depth)] = np.nan
@@ -40,9 +40,9 @@ def back_project_grid(frame: Frame, rows: slice, columns: slice) -> Floats:
 
 
 def rays(intrinsics: Intrinsics, rows: NDArray[np.intp], columns: NDArray[np.intp]) -> Floats:
-    """Directions (n, 3) in `camera_optical` through pixels, with z = 1.
+    """Rays (n, 3) in `camera_optical` through pixels, with z = 1.
 
-    As in OpenCV and ROS, whole coordinates are the middles of pixels.
+    As in OpenCV and ROS, integer coordinates are the centres of pixels.
     """
     return np.stack(
         [
@@ -61,7 +61,7 @@ def transform(pose: Pose, points: Floats) -> Floats:
 
 
 def turned(orientation: Quaternion, vectors: Floats) -> Floats:
-    """Vectors (n, 3), turned so."""
+    """Rotate vectors (n, 3)."""
     result: Floats = np.asarray(vectors, np.float64) @ matrix_of(orientation).T
     return result
 
@@ -83,12 +83,12 @@ def matrix_of(orientation: Quaternion) -> Floats:
 
 
 def heading(yaw: float) -> Quaternion:
-    """The quaternion of a turn to the left, seen from above (radians)."""
+    """The quaternion of a rotation about z by `yaw` (radians, to the left seen from above)."""
     return 0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)
 
 
 def orientation_of(angles: Sequence[float]) -> Quaternion:
-    """The quaternion of turns (radians) about x, then y, then z, axes that do not turn along."""
+    """The quaternion of rotations (radians) about the fixed axes x, then y, then z."""
     orientation = _about(0, angles[0])
     for axis in (1, 2):
         orientation = _product(_about(axis, angles[axis]), orientation)
@@ -103,7 +103,7 @@ def _about(axis: int, angle: float) -> Quaternion:
 
 
 def _product(after: Quaternion, first: Quaternion) -> Quaternion:
-    """The two turns, one after the other."""
+    """The quaternion of rotation `first` followed by `after`."""
     ax, ay, az, aw = after
     x, y, z, w = first
     return (
@@ -115,20 +115,20 @@ def _product(after: Quaternion, first: Quaternion) -> Quaternion:
 
 
 def vector3(values: Sequence[float] | Floats) -> Vector3:
-    """Three numbers that are no NumPy numbers any more: records hold only those."""
+    """Three Python floats, as records need, from NumPy numbers."""
     x, y, z = (float(one) for one in values)
     return x, y, z
 
 
 def pose_from(position: Sequence[float] | Floats, turn: "Rotation") -> Pose:
-    """A pose at this position (3,; metres), turned so."""
+    """A pose with this position (3,; metres) and rotation."""
     x, y, z, w = (float(one) for one in turn.as_quat())
     return Pose(vector3(position), (x, y, z, w))
 
 
 def seen_from(one: Pose, other: Pose) -> Pose:
-    """`other` in the frame `one`, if both are in the same frame."""
-    from scipy.spatial.transform import Rotation  # see above
+    """Express pose `other` in the frame `one`; both are given in the same parent frame."""
+    from scipy.spatial.transform import Rotation  # slow to import, see above
 
     back = Rotation.from_quat(one.orientation).inv()
     offset = np.subtract(other.position, one.position)
@@ -136,8 +136,8 @@ def seen_from(one: Pose, other: Pose) -> Pose:
 
 
 def carried_by(one: Pose, other: Pose) -> Pose:
-    """`other`, told in the frame `one`, in the frame that `one` is told in."""
-    from scipy.spatial.transform import Rotation  # see above
+    """Express pose `other`, given in the frame `one`, in the parent frame of `one`."""
+    from scipy.spatial.transform import Rotation  # slow to import, see above
 
     turn = Rotation.from_quat(one.orientation)
     return pose_from(

@@ -1,7 +1,7 @@
-"""A person who types at a terminal: a prompt with line editing and history while they are asked.
+"""Keyboard input from a terminal: a prompt with line editing and history while a question is open.
 
-While nobody asks, the terminal is left as it is: a line is typed blind, as for any other program,
-and what the robot prints disturbs no prompt.
+Otherwise the terminal is left as it is: lines are read as by any other program, and what the robot
+prints disturbs no prompt.
 """
 
 import os
@@ -23,16 +23,16 @@ if TYPE_CHECKING:
 
 PROMPT = "> "
 POLL_S = 0.05
-"""How often it is looked whether somebody asks now, or a line was typed."""
+"""How often (s) to check whether a prompt is wanted or a line was typed."""
 CLOSED_S = 0.5
-"""How long the prompt may take to put the terminal back in order."""
+"""How long (s) the prompt may take to restore the terminal."""
 
 
 class Keyboard:
-    """The lines that are typed; `prompt` and `rest` may be called from any thread."""
+    """Reads typed lines; `prompt` and `rest` may be called from any thread."""
 
     def __init__(self, source: TextIO, screen: TextIO) -> None:
-        """Read from one terminal, show the prompt on another, which mostly is the same."""
+        """Read from one terminal, show the prompt on another, usually the same."""
         self._source, self._screen = source, screen
         self._asked = threading.Event()
         self._at_rest = threading.Event()
@@ -42,16 +42,16 @@ class Keyboard:
         at_leave(self._close)
 
     def prompt(self) -> None:
-        """Somebody asks: show a prompt."""
+        """Show a prompt."""
         self._asked.set()
 
     def rest(self) -> None:
-        """Nobody asks any more: take the prompt away, if it is there."""
+        """Remove the prompt, if there is one."""
         self._asked.clear()
         self._end_prompt()
 
     def lines(self) -> Iterator[str]:
-        """Each line, as it is typed; ends with the input."""
+        """Each line, as it is typed; ends at the end of the input."""
         while True:
             line = self._edited() if self._asked.is_set() and self._is_ours() else self._plain()
             if line is None:
@@ -61,7 +61,7 @@ class Keyboard:
             yield line
 
     def _plain(self) -> str | None:
-        """A line as the terminal itself has it edited; None if there is none so far."""
+        """A line in the terminal's own line mode; None if there is none yet."""
         try:
             ready = select([self._source], [], [], POLL_S)[0]
             return self._source.readline() if ready else None
@@ -69,14 +69,14 @@ class Keyboard:
             return ""
 
     def _edited(self) -> str | None:
-        """A line typed at the prompt; None if it was taken away, empty at the end of the input."""
+        """A line typed at the prompt; None if the prompt was removed, empty at end of input."""
         self._at_rest.clear()
         try:
             self._session = self._session or _session(self._source, self._screen)
             line = self._session.prompt(handle_sigint=False, pre_run=self._look_again)
             return None if line is None else f"{line}\n"
         except KeyboardInterrupt:
-            os.kill(os.getpid(), signal.SIGINT)  # at a prompt, Ctrl-C is a key and no signal
+            os.kill(os.getpid(), signal.SIGINT)  # at a prompt, Ctrl-C is a key, not a signal
             self._asked.clear()
             return None
         except (EOFError, OSError, ValueError):
@@ -85,7 +85,7 @@ class Keyboard:
             self._at_rest.set()
 
     def _look_again(self) -> None:
-        """The question may have been withdrawn while the prompt was being shown."""
+        """Remove the prompt if the question was withdrawn while the prompt was being shown."""
         if not self._asked.is_set():
             self._end_prompt()
 
@@ -101,13 +101,13 @@ class Keyboard:
                 self._session.app.exit(result=None)
 
     def _is_ours(self) -> bool:
-        """Whether the terminal may be set: not by a program in the background."""
+        """Whether we may change the terminal's mode: a background process must not."""
         with suppress(OSError):
             return os.tcgetpgrp(self._source.fileno()) == os.getpgrp()
         return False
 
     def _close(self) -> None:
-        """Leave the terminal as it was."""
+        """Restore the terminal's mode."""
         self.rest()
         self._at_rest.wait(CLOSED_S)
         if self._is_ours():
@@ -116,7 +116,7 @@ class Keyboard:
 
 
 def keyboard_of(source: TextIO, out: TextIO) -> Keyboard | None:
-    """A keyboard, if a person types and sees what is shown; pipes and files have none."""
+    """A keyboard if both streams are a terminal; None for pipes and files."""
     screen = out.screen if isinstance(out, Terminal) else out
     is_plain = os.environ.get("TERM", "dumb") == "dumb"
     if screen is None or is_plain or source is not sys.stdin:
@@ -128,7 +128,7 @@ def keyboard_of(source: TextIO, out: TextIO) -> Keyboard | None:
 
 
 def _session(source: TextIO, screen: TextIO) -> "PromptSession[str | None]":
-    from prompt_toolkit import PromptSession  # loads slowly, and scripts need none of it
+    from prompt_toolkit import PromptSession  # slow to import, and scripts do not need it
     from prompt_toolkit.history import FileHistory, InMemoryHistory
     from prompt_toolkit.input import create_input
     from prompt_toolkit.key_binding import KeyBindings, KeyPressEvent
@@ -143,7 +143,7 @@ def _session(source: TextIO, screen: TextIO) -> "PromptSession[str | None]":
 
     output = create_output(screen)
     if isinstance(output, Vt100_Output):
-        output.enable_cpr = False  # some terminals do not say where the cursor is
+        output.enable_cpr = False  # some terminals do not report the cursor position
     folder = cache_folder()
     return PromptSession(
         [("ansigreen", PROMPT)],

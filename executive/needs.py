@@ -1,4 +1,4 @@
-"""What settings do nothing without: who gives one alone is told."""
+"""Warnings about settings that have no effect because of other settings."""
 
 import logging
 from collections.abc import Callable, Collection, Iterator
@@ -11,13 +11,13 @@ log = logging.getLogger(__name__)
 
 @dataclass(frozen=True, slots=True)
 class Need:
-    """What some settings need to have an effect.
+    """A condition that some settings need to have an effect.
 
     Attributes:
-        of: the settings, and options of the command line that are none, by the names of fields.
-        is_met: whether the settings have what is needed.
-        lack: what there is instead, as a clause.
-        right: what would be right, beside leaving it out.
+        of: names of settings, and of command-line options that are not settings.
+        is_met: whether the settings meet the condition.
+        lack: why there is no effect, as a clause.
+        right: what to do, other than leaving the setting out.
     """
 
     of: tuple[str, ...]
@@ -109,15 +109,15 @@ NEEDS = (
         "give --habits household",
     ),
 )
-"""Beside these, what would be wrong wherever it comes from is refused where it is used."""
+"""Settings that are wrong in any case are refused where they are used, not here."""
 
 
 def warn_of_vain(settings: Settings, given: Collection[str]) -> None:
-    """Tell which settings have no effect; of a file's and the environment's, if they say something.
+    """Warn of settings without effect; those of a file or the environment if not the default.
 
     Args:
-        settings: all of them.
-        given: those that the command line gives.
+        settings: all settings.
+        given: names of those given on the command line.
     """
     for name, need in _unmet(settings):
         lack = f"has no effect: {need.lack}"

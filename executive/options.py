@@ -1,4 +1,4 @@
-"""Options of a command line, made of the fields of `Settings`: what a field says is said once."""
+"""Command-line options, generated from the fields of `Settings`."""
 
 import argparse
 import types
@@ -12,20 +12,20 @@ from executive.config import Option, Settings
 
 
 def add_settings(parser: argparse.ArgumentParser) -> None:
-    """Add an option for each setting that has one, in their order."""
+    """Add the options of all settings that have one, in order."""
     for name in _in_order():
         add_setting(parser, name)
 
 
 def add_setting(parser: argparse.ArgumentParser, name: str, **otherwise: Any) -> None:
-    """Add the option of one setting; what is given `otherwise` replaces what the field says."""
+    """Add the option of one setting; `otherwise` overrides arguments of `add_argument`."""
     field = Settings.model_fields[name]
     said = {"help": _help(field), **_kind(field), **otherwise}
     parser.add_argument(f"--{name.replace('_', '-')}", **said)
 
 
 def _in_order() -> list[str]:
-    """The settings that have an option; one may name another one that it comes after."""
+    """The settings with an option, in the order for `--help`; see `Option.after`."""
     names: list[str] = []
     for name, field in Settings.model_fields.items():
         option = option_of(field)
@@ -36,7 +36,7 @@ def _in_order() -> list[str]:
 
 
 def option_of(field: FieldInfo) -> Option | None:
-    """What a field says of its option; None if it has none."""
+    """The `Option` of a field; None if it has none."""
     return next((one for one in field.metadata if isinstance(one, Option)), None)
 
 
@@ -49,7 +49,7 @@ def _help(field: FieldInfo) -> str:
 
 
 def _kind(field: FieldInfo) -> dict[str, Any]:
-    """How argparse reads it, by the field's type."""
+    """The arguments of `add_argument` that follow from the field's type."""
     option = option_of(field)
     metavar = {"metavar": option.metavar} if option and option.metavar else {}
     kind = _of_set_value(field.annotation)
@@ -65,7 +65,7 @@ def _kind(field: FieldInfo) -> dict[str, Any]:
 
 
 def _of_set_value(annotation: Any) -> Any:
-    """The type of a setting that is set: of `int | None`, int."""
+    """The type without None: int for `int | None`."""
     if get_origin(annotation) in (Union, types.UnionType):
         return next(kind for kind in get_args(annotation) if kind is not type(None))
     return annotation
@@ -79,7 +79,7 @@ def _choices(kind: Any) -> Iterator[str]:
 
 
 class _Pairs(argparse.Action):
-    """Gathers OBJECT=FURNITURE pairs."""
+    """Collects OBJECT=FURNITURE pairs."""
 
     def __call__(
         self,

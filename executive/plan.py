@@ -1,12 +1,12 @@
-"""Where to look, in which order, and when to ask: the plan that costs least by its expectation.
+"""Where to look, in which order, and when to ask: the plan with the least expected cost.
 
-A look brings no news but "not here". So a plan is an order of places and a moment to ask, and what
-it costs can be expected exactly. Over up to `EXACT` places the best of all plans is found, by
-dynamic programming over the subsets of what was looked at (Held and Karp, "A dynamic programming
-approach to sequencing problems", 1962); with more, the same is done for one stretch of the order
-after the other, until that brings nothing more.
+A look that fails tells only "not here". So a plan is an order of places and a moment to ask, and
+its expected cost can be computed exactly. For up to `EXACT` places the optimal plan is found, by
+dynamic programming over the subsets of visited places (Held and Karp, "A dynamic programming
+approach to sequencing problems", 1962). For more places, this is applied to one segment of the
+order after the other, until nothing improves.
 
-Pure functions of numbers: nothing of robots, trees or clocks.
+Pure functions of numbers, independent of robots, trees and clocks.
 """
 
 from collections.abc import Sequence
@@ -20,22 +20,22 @@ from numpy.typing import NDArray
 from executive.geometry import Floats
 
 EXACT = 12
-"""Of so many places the best plan is found: it takes milliseconds."""
+"""The largest number of places for which the optimal plan is computed, in milliseconds."""
 STEP = 4
-"""With more places, as many are put in order at once, and then those that begin so many earlier."""
+"""For more places, segments of `EXACT` places are optimised, each starting this much earlier."""
 FIRST = 24
-"""So far from the beginning of the order: what comes later hardly counts."""
+"""Only this many places at the beginning of the order are optimised: later ones hardly matter."""
 SWEEPS = 3
-"""The order is gone through at most so often."""
+"""The largest number of passes over the order."""
 GAIN = 1e-9
-"""What is cheaper by less than this is as dear."""
+"""Costs that differ by less than this are equal."""
 FAR_S = 1e9
-"""As long as the way takes where there is none."""
+"""The duration that stands for a drive without a path."""
 
 
 @dataclass(frozen=True, slots=True)
 class Chance:
-    """A place that may be looked at: how likely the thing is there (from 0 to 1)."""
+    """A place that may be looked at, and the probability that the thing is there."""
 
     place: str
     probability: float
@@ -43,10 +43,10 @@ class Chance:
 
 @dataclass(frozen=True, slots=True)
 class Prices:
-    """What a question to the person and a visit cost, in seconds of searching.
+    """The costs of a question to the person and of a visit, in seconds of searching.
 
-    A question of infinite price is never asked: nobody answers. The price of a visit comes on top
-    of its seconds.
+    A question of infinite cost is never asked: nobody answers. The cost of a visit is added to its
+    duration.
     """
 
     question_s: float = 60.0
@@ -55,13 +55,13 @@ class Prices:
 
 @dataclass(frozen=True, slots=True)
 class Expectation:
-    """What is to be expected of a way to go on.
+    """The expected values of one option.
 
     Attributes:
-        seconds: of ways and looks, until the thing is seen or is known to be nowhere.
-        visits: how many places will be looked at.
-        questions: how many questions will be asked (at most 1).
-        cost: all of it, in seconds by the prices.
+        seconds: duration of drives and looks, until the thing is seen or all places were seen.
+        visits: number of places looked at.
+        questions: number of questions (at most 1).
+        cost: total cost in seconds, with the prices of questions and visits.
     """
 
     seconds: float
@@ -72,14 +72,14 @@ class Expectation:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """An order of places, and after how many of them the person is asked.
+    """An order of places, and after how many of them to ask the person.
 
     Attributes:
-        order: where to look before that, or at all; places that cannot be reached are not in it.
-        ask_after: how many of `order` are looked at before the question; None: never.
-        expected: what it comes to.
-        asking: what asking at once comes to; None if that is no choice.
-        looking: what the best plan comes to that begins with a look; None if there is none.
+        order: where to look before the question, if there is one; only reachable places.
+        ask_after: how many of `order` to look at before the question; None: never ask.
+        expected: the expected values of this plan.
+        asking: those of asking at once; None if that is impossible.
+        looking: those of the best plan that begins with a look; None if there is none.
     """
 
     order: tuple[str, ...]
@@ -106,18 +106,18 @@ def best_plan(
     prices: Prices = Prices(),
     elsewhere: float = 0.0,
 ) -> Plan:
-    """The plan that costs least.
+    """Compute the plan with the least expected cost.
 
-    Once the person is asked, the robot goes to where they say; they know. Of what is equally good,
-    the plan is taken that asks sooner.
+    The person is assumed to know the place; after a question, the robot goes there. Of plans with
+    equal cost, the one that asks earlier is taken.
 
     Args:
-        chances: the places, each once; what they sum to is no matter.
-        first_s: of each the seconds of the way from where the robot is, and of the look there;
-            infinite if there is no way.
-        between_s: the same from each place to each other one.
-        prices: of a question and of a visit.
-        elsewhere: how likely the thing is at none of these places, or at one that was looked at.
+        chances: the places, each once; the probabilities need not sum to 1.
+        first_s: (n,) seconds to drive to each place from here, and look there; infinite if there
+            is no path.
+        between_s: (n, n) the same from each place (row) to each other one (column).
+        prices: costs of a question and of a visit.
+        elsewhere: probability that the thing is at none of these places, or at a visited one.
     """
     problem = _Problem.of(chances, first_s, between_s, prices, elsewhere)
     asking = problem.expectation((), 0) if problem.may_ask else None
@@ -138,7 +138,7 @@ _NOTHING = Expectation(0.0, 0.0, 0.0, 0.0)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Problem:
-    """The numbers: `first` (n,) and `between` (n, n) are seconds with the price of a visit."""
+    """The normalised input: `first` (n,) and `between` (n, n) are seconds with a visit's price."""
 
     chance: Floats
     elsewhere: float
@@ -173,12 +173,12 @@ class _Problem:
 
     @property
     def open(self) -> list[int]:
-        """The places that can be reached and are worth it."""
+        """Indices of the places that are reachable and have a probability above 0."""
         worth = np.isfinite(self.first) & (self.chance > 0)
         return np.flatnonzero(worth).tolist()
 
     def expectation(self, order: Sequence[int], ask_after: int | None) -> Expectation:
-        """What looking in this order comes to, with the question after so many looks."""
+        """The expected values of looking in this order, with a question after `ask_after` looks."""
         left, cost, visits = 1.0, 0.0, 0.0
         ways, at = self.first, list(order[:ask_after])
         for place in at:
@@ -199,7 +199,7 @@ class _Problem:
 
 
 def _ordered(problem: _Problem) -> list[int]:
-    """The best order of all places that can be reached, if the first thing to do is a look."""
+    """The best order of all reachable places, given that the first step is a look."""
     order = _greedy(problem)
     if len(order) <= EXACT:
         return _stretch(problem, order, 0, len(order))
@@ -214,7 +214,7 @@ def _ordered(problem: _Problem) -> list[int]:
 
 
 def _greedy(problem: _Problem) -> list[int]:
-    """Always on to where most is found by the second."""
+    """Always go next to the place with the highest probability per second."""
     ways, left, order = problem.first, problem.open, list[int]()
     while left:
         by_the_second = problem.chance[left] / np.clip(ways[left], GAIN, FAR_S)
@@ -224,7 +224,7 @@ def _greedy(problem: _Problem) -> list[int]:
 
 
 def _stretch(problem: _Problem, order: list[int], start: int, length: int) -> list[int]:
-    """The order, with so many places from `start` on arranged as well as can be."""
+    """The order, with `length` places from `start` on in their optimal order."""
     places = order[start : start + length]
     head, tail = order[:start], order[start + length :]
     k = len(places)
@@ -246,7 +246,7 @@ def _stretch(problem: _Problem, order: list[int], start: int, length: int) -> li
 
 
 def _looked(value: Floats, layer: NDArray[np.intp], left: Floats, inside: Floats) -> Floats:
-    """(layer, starts) what the best plan costs that goes on with a look, from these subsets."""
+    """(layer, starts) cost of the best plan that continues with a look, from these subsets."""
     best = np.full((len(layer), len(inside)), inf)
     for j, ways in enumerate(inside.T):
         ahead = np.where(layer >> j & 1, inf, value[layer | (1 << j), j])
@@ -257,13 +257,13 @@ def _looked(value: Floats, layer: NDArray[np.intp], left: Floats, inside: Floats
 def _followed(
     places: list[int], value: Floats, end: Floats, left: Floats, inside: Floats, looks: bool
 ) -> list[int]:
-    """The places in the order of the best plan; those after the question as they were."""
+    """The places in the order of the best plan; those after the question in their old order."""
     order, at, subset, rest = list[int](), len(places), 0, list(range(len(places)))
     while rest:
         ahead = [left[subset] * inside[at, j] + value[subset | (1 << j), j] for j in rest]
         best = int(np.argmin(ahead))
         if ahead[best] > end[subset, at] - GAIN and not (looks and subset == 0):
-            break  # to ask is as good; that it is not good at once is looked at apart
+            break  # asking is as good; `best_plan` compares asking at once separately
         at = rest.pop(best)
         order.append(at)
         subset |= 1 << at
@@ -278,7 +278,7 @@ def _ends(
     members: NDArray[np.bool_],
     left: Floats,
 ) -> Floats:
-    """(subsets, starts) what it costs to ask, once these were looked at, from each start."""
+    """(subsets, starts) cost of asking once these were looked at, from each start."""
     if not problem.may_ask:
         end = np.full((len(members), len(ways)), inf)
         if not tail:
@@ -292,7 +292,7 @@ def _ends(
 
 
 def _going_on(problem: _Problem, ways: Floats, tail: list[int], left: float) -> Floats:
-    """(starts,) what looking on along the tail costs from each start; infinite if there is none."""
+    """(starts,) cost of looking along the tail, from each start; infinite if it is empty."""
     if not tail:
         return np.full(len(ways), inf)
     value = 0.0
@@ -312,7 +312,7 @@ def _going_on(problem: _Problem, ways: Floats, tail: list[int], left: float) -> 
 
 @cache
 def _subsets(k: int) -> tuple[NDArray[np.bool_], tuple[NDArray[np.intp], ...]]:
-    """Of k places: (2**k, k) which are in each subset; the subsets by size, but for the whole."""
+    """(2**k, k) the members of each subset of k places; and the proper subsets by size."""
     numbers = np.arange(2**k)
     members = (numbers[:, None] >> np.arange(k)) & 1 == 1
     sizes = members.sum(axis=1)

@@ -1,7 +1,7 @@
-"""What is written down: one typed record for each thing that a reader may ask about later.
+"""The records of the log: one type for each kind of thing that a reader may ask about later.
 
-Whoever makes something worth keeping hands one of these to the Recorder, which stamps it with the
-mission time and passes it to every sink.
+Code that has something to log passes a record to the Recorder, which adds the mission time and
+passes it to every sink.
 """
 
 from dataclasses import dataclass, field
@@ -19,9 +19,9 @@ from executive.types.results import Replied, Scored
 
 
 class Activity(StrEnum):
-    """What the robot is doing while a behaviour is running; behaviours of one's own may add words.
+    """What the robot does while a behaviour is running; behaviours of others may use other words.
 
-    A behaviour inside of another one says it more exactly: of those running, the innermost counts.
+    If several running behaviours have an activity, the innermost counts: it is the most exact.
     """
 
     DRIVING = "driving"
@@ -30,15 +30,16 @@ class Activity(StrEnum):
     THINKING = "thinking"
     ASKING = "asking"
     SEARCHING = "searching"
-    """At a place where the thing may be, or on the way there: what `look at ...` is told of."""
+    """Looking at a place where the thing may be, or driving there."""
 
 
 @dataclass(frozen=True, slots=True)
 class NodeShape:
-    """One behaviour of the tree; `path` is the names from the root, joined by slashes, unique.
+    """One behaviour of the tree.
 
-    What a behaviour means stands in the last three, as it declares it. Whoever reads a tree goes by
-    them, never by a name: names are there to be read by people, and may change.
+    `path` joins the names from the root with slashes, and is unique. A behaviour declares its
+    meaning in the last three fields. Code that reads a tree uses these, never the names, which are
+    for people and may change.
     """
 
     path: str
@@ -49,17 +50,17 @@ class NodeShape:
     """`sequence`, `selector`, `parallel`, `decorator` or `behaviour`."""
     class_name: str
     source: str = ""
-    """Who says what it settles: `person` (in the command), a `Source`, or a source of one's own;
-    empty if nobody but the tree."""
+    """The source of its result: `person` (in the command), a `Source`, or the name of a
+    `PlaceSource`; empty if it is the tree alone."""
     activity: str = ""
-    """What the robot is doing while it is running: an `Activity`; empty if it takes no time."""
+    """What the robot does while it is running: an `Activity`; empty if it takes no time."""
     stage: bool = False
-    """Whether it is a part of the mission that deserves a lane of its own."""
+    """Whether it is a stage of the mission, which viewers show in a lane of its own."""
 
 
 @dataclass(frozen=True, slots=True)
 class TreeShape:
-    """All behaviours, parents before children, written once a mission."""
+    """All behaviours, parents before children; written once per mission."""
 
     nodes: tuple[NodeShape, ...]
 
@@ -75,7 +76,7 @@ class NodeState:
 
 @dataclass(frozen=True, slots=True)
 class Tick:
-    """The whole tree after one tick, what caused it, and what the mission knows."""
+    """The whole tree after one tick, the cause of the tick, and the mission's situation."""
 
     number: int
     cause: str
@@ -98,14 +99,14 @@ class EventTaken:
 
 @dataclass(frozen=True, slots=True)
 class LlmCall:
-    """One finished call of the language model, with request, reply, tokens and times."""
+    """One finished call of the language model: request, reply, tokens and times."""
 
     result: Replied | Scored
 
 
 @dataclass(frozen=True, slots=True)
 class Verified:
-    """What the verification let through of a reply, and what it kept out."""
+    """The names in a reply that the verification accepted, and those that it dropped."""
 
     label: str
     accepted: tuple[str, ...]
@@ -115,7 +116,7 @@ class Verified:
 
 @dataclass(frozen=True, slots=True)
 class SourceAnswer:
-    """Where a knowledge source of one's own said that a thing is: nowhere, if it did not know."""
+    """The places that a `PlaceSource` gave for a thing; empty if it did not know."""
 
     source: str
     thing: str
@@ -124,15 +125,15 @@ class SourceAnswer:
 
 @dataclass(frozen=True, slots=True)
 class Recalled:
-    """What the robot has learned of where a thing may be now.
+    """What the robot has learned about where a thing may be now.
 
     Attributes:
-        thing: what is looked for.
-        sources: `memory`, where it was last, and `habits`, where it may have been taken since.
-        trusts: how much each of them takes of what those before it have left.
-        places: where it may be; none if nothing was learned of it.
-        says: whose word each of these is.
-        weights: how likely each is beside the others of the same source.
+        thing: the thing that is looked for.
+        sources: `memory`, where it was last seen, and `habits`, where people may have taken it.
+        trusts: of each source, its share of the probability that those before it have left.
+        places: where it may be; empty if nothing was learned about it.
+        says: the source of each place.
+        weights: the relative probability of each place among those of the same source.
     """
 
     thing: str
@@ -145,28 +146,28 @@ class Recalled:
 
 @dataclass(frozen=True, slots=True)
 class Planned:
-    """What the robot is going to do in its search, and why: a decision between looking and asking.
+    """A decision of the search between looking and asking, with its reasons.
 
     Attributes:
-        thing: what is looked for.
+        thing: the thing that is looked for.
         decision: `look`, `ask`, or `give up`.
-        order: where it means to look, in this order; the first is next.
-        ask_after: after how many of these it means to ask; -1: never.
-        seconds: of ways and looks, expected.
-        visits: expected.
-        questions: expected.
-        cost: expected, in seconds, with the price of questions.
-        may_ask: whether asking at once is a choice.
-        asking_cost: what it costs then, expected.
-        may_look: whether there is anywhere to look.
-        looking_cost: what the best plan costs that begins with a look.
+        order: the places to look at, in order.
+        ask_after: after how many of these to ask; -1: never.
+        seconds: expected duration of drives and looks.
+        visits: expected number of places looked at.
+        questions: expected number of questions.
+        cost: expected cost, in seconds, with the price of questions.
+        may_ask: whether asking at once is possible.
+        asking_cost: expected cost of asking at once.
+        may_look: whether there is a place to look at.
+        looking_cost: expected cost of the best plan that begins with a look.
         places: where the thing may be, the likeliest first.
-        probabilities: how likely, in the same order.
-        says: who says so, in the same order, each with what it gave: "memory 0.90, llm 0.01".
-        elsewhere: how likely it is at none of these.
+        probabilities: the probability of each place.
+        says: the sources of each place with their shares: "memory 0.90, llm 0.01".
+        elsewhere: probability that the thing is at none of these.
         text: the decision as a sentence.
-        away: how long the way from here and the look take of each of the places (s), in the same
-            order; -1: there is no way, or it is not worth a look. Empty in recordings of before.
+        away: seconds to drive to each place from here and look there; -1 if there is no path, or
+            the place is not worth a look. Empty in earlier recordings.
     """
 
     thing: str
@@ -191,7 +192,7 @@ class Planned:
 
 @dataclass(frozen=True, slots=True)
 class WaysTold:
-    """How long the robot's ways from a place to others take (s), as it told; -1: there is none."""
+    """The robot's estimates of drives from a place to others (s); -1: there is no path."""
 
     start: str
     places: tuple[str, ...]
@@ -200,7 +201,7 @@ class WaysTold:
 
 @dataclass(frozen=True, slots=True)
 class Utterance:
-    """Something said: speaker is `person` or `robot`."""
+    """A sentence that was said; `speaker` is `person` or `robot`."""
 
     speaker: str
     text: str
@@ -208,18 +209,18 @@ class Utterance:
 
 @dataclass(frozen=True, slots=True)
 class Note:
-    """A line for the log: level is `debug`, `info`, `warning` or `error`."""
+    """A log message; `level` is `debug`, `info`, `warning` or `error`."""
 
     level: str
     text: str
 
 
-# --- what was seen, and the world for the eye of the reader ---
+# --- what was seen, and the world for viewers ---
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Picture:
-    """A camera frame, as taken."""
+    """A camera frame."""
 
     frame: Frame
 
@@ -234,12 +235,12 @@ class Seen:
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """One rigid primitive of an entity, in the entity's frame.
+    """One rigid shape of an entity, in the entity's frame.
 
     `kind` is `box` (size = full lengths x, y, z), `cylinder` (size = diameter, diameter, length
-    along z), `sphere` (size = thrice the diameter) or `mesh` (size = scale). The file of a `mesh`
-    is an OBJ, drawn in the colour, or a GLB, which has its own colours and, as all glTF, y up and
-    z to the front.
+    along z), `sphere` (size = diameter, diameter, diameter) or `mesh` (size = scale). The file of a
+    `mesh` is an OBJ, drawn in `color`, or a GLB, which has its own colours and, as all glTF, y up
+    and z to the front.
     """
 
     kind: str
@@ -251,7 +252,7 @@ class Shape:
 
 @dataclass(frozen=True, slots=True)
 class Entity:
-    """A visible thing: its shapes move with the frame `frame_id`."""
+    """A visible object; its shapes move with the frame `frame_id`."""
 
     name: str
     frame_id: str
@@ -267,7 +268,7 @@ class Scene:
 
 @dataclass(frozen=True, slots=True)
 class Transform:
-    """Where the frame `child` is in the frame `parent`."""
+    """The pose of the frame `child` in the frame `parent`."""
 
     parent: str
     child: str
@@ -283,16 +284,16 @@ class Transforms:
 
 @dataclass(frozen=True, slots=True)
 class PlannedPath:
-    """The way that the robot means to drive: points in `map` (metres)."""
+    """The path that the robot plans to drive: points in `map` (metres)."""
 
     points: tuple[Vector3, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Mishap:
-    """A fault that was ordered has struck the simulated world: for readers, never for the robot.
+    """An injected fault has occurred in the simulated world: for readers, never for the robot.
 
-    `fault` is the order as `--fault` has it, `text` what it did.
+    `fault` is the fault as given to `--fault`, `text` what it did.
     """
 
     fault: str
@@ -301,7 +302,7 @@ class Mishap:
 
 @dataclass(frozen=True, slots=True)
 class Intervention:
-    """What an experimenter did, beside its event (`Intervened`): for who only reads of these."""
+    """What an experimenter did: the event `Intervened`, for readers of these records alone."""
 
     by: str
     deed: str

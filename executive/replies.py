@@ -1,4 +1,4 @@
-"""What the robot says to what asks for no deed: questions about itself, and what it is told."""
+"""Replies to what is not a command: questions about the robot and the home, and statements."""
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -31,7 +31,7 @@ SAYS: Mapping[str, str] = {
     Source.HABITS: "people may have taken it there",
     ANYWHERE: "it may be anywhere",
 }
-"""How the person is told who names a place to look at; other sources say it themselves."""
+"""How each source is named to the person; a `PlaceSource` has its own `says`."""
 IDLE = "Nothing: I wait for what you say."
 NOTHING_YET = "I did nothing yet."
 AT_REST = "At rest: I wait for what you say."
@@ -43,25 +43,25 @@ SAYS_OF_SEVERAL: Mapping[str, str] = {
     ANYWHERE: "they may be anywhere",
 }
 _WAYS = ("go", "drive", "look", "move", "search", "there")
-"""Words of a question about where the robot went."""
+"""Words of questions about where the robot went."""
 _ROOMS = ("room", "rooms")
 _FURNITURE = ("furniture", "places", "pieces of furniture")
 _OF_THE_HOME = (CommandKind.COUNT, CommandKind.TELL)
-"""Questions that are about the home itself, if they are about rooms or furniture."""
+"""Kinds of command that ask about the home itself, if they are about rooms or furniture."""
 
 
 @dataclass(frozen=True, slots=True)
 class Standing:
-    """How it stands with the robot, when it is asked.
+    """The state of the robot, to answer questions about it.
 
     Attributes:
-        holds: what the hand holds; None: nothing.
+        holds: the thing in the hand; None if it is empty.
         doing: what the robot is doing, as a sentence; empty if nothing.
-        visits: where it went to look, and who had named the place, the last one at the end.
-        been: all the places where it was.
+        visits: the places where it went to look, with their sources, the last one at the end.
+        been: all places where it was.
         reason: how the last mission ended, in words; empty if there was none.
-        stands: where it is, at rest; empty if it was stopped on its way.
-        asked: what the person asked for last; empty if nothing.
+        stands: the place where it stands; empty if it was stopped on its way.
+        asked: the person's last command; empty if there was none.
     """
 
     holds: str | None = None
@@ -74,9 +74,9 @@ class Standing:
 
 
 def reply(said: Said, standing: Standing, knowledge: Knowledge, facts: Facts) -> str:
-    """The answer to a question, or the thanks for what is told; empty if it is neither.
+    """The answer to a question, or the thanks for a statement; empty if it is neither.
 
-    What is told is remembered, if it is about a thing and a place that there are.
+    A statement is remembered if it is about a known thing and a known place.
     """
     say = Wording(knowledge.called)
     match said:
@@ -113,7 +113,7 @@ def reply(said: Said, standing: Standing, knowledge: Knowledge, facts: Facts) ->
 
 
 def about(said: Said, knowledge: Knowledge) -> tuple[str, ...]:
-    """The one object that a question or statement is about; none if it is not clear."""
+    """The one object that a question or statement is about; empty if that is unclear."""
     match said:
         case Statement(things=things) | Question(things=Things() as things):
             name, _ = _one(things, knowledge)
@@ -128,7 +128,7 @@ def _where_i_am(place: str, say: Wording) -> str:
 
 
 def _known(things: Things, knowledge: Knowledge) -> str:
-    """What is known of things without looking: which there are; of one, what it is like, too."""
+    """What is known of things without looking: their names; of a single one, its properties."""
     say, words = Wording(knowledge.called), " or ".join(t.words for t in things.members)
     if words in (*_ROOMS, *_FURNITURE):
         return _of_the_home(words, None, knowledge)
@@ -152,7 +152,7 @@ def _known(things: Things, knowledge: Knowledge) -> str:
 
 
 def _of_the_home(words: str, where: Where | None, knowledge: Knowledge) -> str:
-    """Which rooms there are, or which furniture: in a room, if one is named."""
+    """The rooms of the home, or its furniture: that of a room, if one is named."""
     say, places = Wording(knowledge.called), knowledge.places()
     if words in _ROOMS:
         rooms = dict.fromkeys(place.room_label or spoken(place.room) for place in places)
@@ -163,7 +163,7 @@ def _of_the_home(words: str, where: Where | None, knowledge: Knowledge) -> str:
 
 
 def _where_it_stands(words: str, knowledge: Knowledge) -> str:
-    """In which room furniture is, and what is in a room; empty for things, which are looked for."""
+    """The room of a piece of furniture, or the furniture of a room; empty for other things."""
     if knowledge.objects_named(words) or not knowledge.is_place(words):
         return ""
     say, named = Wording(knowledge.called), knowledge.places_named(words)
@@ -175,7 +175,7 @@ def _where_it_stands(words: str, knowledge: Knowledge) -> str:
 
 
 def _told(said: Statement, knowledge: Knowledge, facts: Facts) -> str:
-    """Remember it of each of the things."""
+    """Remember a statement about each of its things; return the reply."""
     each = [replace(said, things=Things((thing,))) for thing in said.things.members]
     if said.things.one_of or len(each) == 1:
         each = [said]
@@ -220,7 +220,7 @@ def _where_is(things: Things, standing: Standing, knowledge: Knowledge, facts: F
 
 
 def _where_found(things: Things, standing: Standing, knowledge: Knowledge, facts: Facts) -> str:
-    """Where it was taken from; of what was not taken, where it is."""
+    """Where a thing was taken from; where it is, if it was not taken."""
     say = Wording(knowledge.called)
     name, _ = _one(things, knowledge)
     taken = [place for place in facts.origins().get(name, ()) if knowledge.has_place(place)]
@@ -230,7 +230,7 @@ def _where_found(things: Things, standing: Standing, knowledge: Knowledge, facts
 
 
 def _remembered(knowledge: Knowledge, facts: Facts) -> str:
-    """Where things are, as far as is known."""
+    """Where all remembered things are."""
     say = Wording(knowledge.called)
     known = {name: facts.places_of(name) for name in facts.beliefs()}
     there = [f"{say.are(name)} {say.at(places[0])}" for name, places in known.items() if places]
@@ -254,7 +254,7 @@ def _why(words: str, standing: Standing, knowledge: Knowledge) -> str:
 
 
 def _one(things: Things, knowledge: Knowledge) -> tuple[str, str]:
-    """The one object that is meant, or what to say if it is none, or several."""
+    """The one object that is meant; or else empty, and the reply that says why."""
     words = " or ".join(thing.said or thing.words for thing in things.members)
     if any(thing.pronoun for thing in things.members):
         return "", f"I do not know what '{words}' is."
@@ -267,7 +267,7 @@ def _one(things: Things, knowledge: Knowledge) -> tuple[str, str]:
 
 
 def _at(where: Where, named: Collection[str], knowledge: Knowledge) -> str:
-    """As it was said: "on the table"; what is at a room is in it."""
+    """A place in the person's words: "on the table"; "at" a room becomes "in"."""
     rooms = {place.room for place in knowledge.places() if place.name in named}
     in_it = where.relation == Relation.AT and len(rooms) == 1
     relation = Relation.IN if in_it else where.relation

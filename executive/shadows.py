@@ -1,20 +1,20 @@
-"""Our packages have common names: what other people call so may come before them on the path.
+"""Detects modules of others that shadow our packages, whose names are common.
 
-A door of ours says so when it runs. A door that is itself shadowed is not run, and cannot.
+Each of our programs checks this at its start. A program that is itself shadowed cannot.
 """
 
 import os
 import sys
 
 BESIDE = os.path.dirname(os.path.dirname(__file__))
-"""The folder that this package is in, and so are the others."""
+"""The folder of this package and of our others."""
 OTHERS = ("kb", "logs", "sim", "trees")
 COMMANDS = "robot-executive, or robot-executive-kb, -logs, -sim, -trees or -campaign"
-"""Those that do not import from the folder that they are run in."""
+"""Commands that do not import from the current folder."""
 
 
 def shadow() -> str:
-    """What Python would import in place of a package of ours, as a sentence; empty if nothing."""
+    """Which module shadows a package of ours, as a sentence; empty if none does."""
     for package in OTHERS:
         found = _found(package)
         if found not in ("", os.path.join(BESIDE, package)):
@@ -26,7 +26,7 @@ def shadow() -> str:
 
 
 def _found(package: str) -> str:
-    """The folder or file that would be imported; this takes less than 0.1 ms."""
+    """The folder or file that Python would import; takes less than 0.1 ms."""
     for finder in sys.meta_path:
         if spec := finder.find_spec(package, None):
             where = spec.origin or next(iter(spec.submodule_search_locations or ()), "")

@@ -1,4 +1,4 @@
-"""How every command of the project begins and ends: its signals, streams and exit status."""
+"""The frame of every command of the project: signals, standard streams and exit status."""
 
 import errno
 import gc
@@ -21,16 +21,16 @@ from executive.text import printable
 DONE, NOT_DONE, BAD_INPUT, STOPPED = 0, 1, 2, 130
 
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
-"""Ctrl-C, `kill`, the end of the terminal, Ctrl-\\: all of them say stop."""
+"""Signals that mean stop: Ctrl-C, `kill`, the end of the terminal, Ctrl-\\."""
 
 STDERR = 2
-"""Its file descriptor."""
+"""The file descriptor of standard error."""
 
 Handler = Callable[[int, FrameType | None], None]
 
 
 class EntryPoint(Protocol):
-    """What `python -m PACKAGE` runs."""
+    """The main function of `python -m PACKAGE`."""
 
     def __call__(self, arguments: Sequence[str] | None = None) -> int:
         """Run with these arguments (default: those of the process); return the exit status."""
@@ -40,14 +40,14 @@ class EntryPoint(Protocol):
 _at_leave: list[Callable[[], None]] = []
 
 _is_program = False
-"""Whether the process is ours, and not one that calls a `main`."""
+"""Whether the process is one of our programs, and not another that calls a `main`."""
 
 
 def begin() -> None:
-    """What a program does first of all, before the imports that take long.
+    """Prepare the process; called first, before the imports that take long.
 
-    A signal that says stop ends it without a traceback, also while it imports. If it would import
-    what is not ours, it says so and ends.
+    From now on a stop signal ends the process without a traceback, also during imports. If a
+    package of ours is shadowed, the process says so and ends.
     """
     global _is_program
     _is_program = True
@@ -60,7 +60,7 @@ def begin() -> None:
 
 
 def end_at_once(number: int, frame: FrameType | None) -> None:
-    """What a signal does while nothing is under way that must be ended in order."""
+    """Handle a stop signal while nothing has to be shut down in order."""
     if _is_program:
         _put_in_order()
         os._exit(STOPPED)
@@ -68,7 +68,7 @@ def end_at_once(number: int, frame: FrameType | None) -> None:
 
 
 def entry_point(main: Callable[[Sequence[str] | None], int]) -> EntryPoint:
-    """Have bad input told in a line, signals end the command, and `| head` read what it likes."""
+    """Wrap a main function: errors of input become one line, and stop signals an exit status."""
 
     @wraps(main)
     def ended(arguments: Sequence[str] | None = None) -> int:
@@ -95,9 +95,9 @@ def entry_point(main: Callable[[Sequence[str] | None], int]) -> EntryPoint:
 
 @contextmanager
 def all_is_kept() -> Iterator[None]:
-    """Python looks for no garbage meanwhile, nor later among what there is then: it is in use.
+    """Pause garbage collection, and exclude all objects that exist at the end from it later.
 
-    Looking takes a tenth of the time in which a program starts.
+    For imports: collection would take a tenth of a program's starting time.
     """
     gc.disable()
     try:
@@ -109,7 +109,7 @@ def all_is_kept() -> Iterator[None]:
 
 @contextmanager
 def on_stop_signals(handler: Handler) -> Iterator[None]:
-    """Have this called when a signal says stop meanwhile; Python lets the main thread only."""
+    """Handle stop signals so inside the block; outside of the main thread it does nothing."""
     before = handle_stop_signals(handler)
     try:
         yield
@@ -119,7 +119,10 @@ def on_stop_signals(handler: Handler) -> Iterator[None]:
 
 
 def stops_in_order(stop: Callable[[str], None], says: str) -> Handler:
-    """Calls `stop` with whose the first signal is, and answers; a second Ctrl-C interrupts."""
+    """A handler that calls `stop` with the first signal's name and prints `says`.
+
+    A second Ctrl-C raises KeyboardInterrupt.
+    """
     asked = False
 
     def handle(number: int, frame: FrameType | None) -> None:
@@ -137,7 +140,7 @@ def stops_in_order(stop: Callable[[str], None], says: str) -> Handler:
 
 
 def leave(status: int) -> None:
-    """End the process now, whatever its threads do; what was printed is written first."""
+    """Flush the output and end the process now, whatever its threads do."""
     _put_in_order()
     for stream in (sys.stdout, sys.stderr):
         if stream is not None:
@@ -147,7 +150,7 @@ def leave(status: int) -> None:
 
 
 def at_leave(action: Callable[[], None]) -> None:
-    """Have this done before the process ends: the terminal is put in order."""
+    """Register an action to do before the process ends, such as restoring the terminal."""
     _at_leave.append(action)
 
 
@@ -158,7 +161,7 @@ def _put_in_order() -> None:
 
 
 def leave_within(seconds: float, status: int) -> None:
-    """End the process so much later, if it has not ended by itself then: a thread may be stuck."""
+    """End the process after this time if it has not ended by itself: a thread may be stuck."""
     if _is_program:
         timer = threading.Timer(seconds, leave, [status])
         timer.daemon = True
@@ -166,13 +169,13 @@ def leave_within(seconds: float, status: int) -> None:
 
 
 def leave_stopping_to_the_parent() -> None:
-    """For a command's worker processes, which a terminal's signals reach, too."""
+    """Ignore the terminal's signals in a worker process: the parent handles them."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGHUP, signal.SIG_IGN)
 
 
 def _flushed(main: Callable[[Sequence[str] | None], int], arguments: Sequence[str] | None) -> int:
-    """Its status, when all of its output is out; argparse ends with SystemExit."""
+    """Run `main` and flush its output, also if argparse raises SystemExit; return its status."""
     try:
         status = main(arguments)
     except SystemExit:
@@ -187,9 +190,10 @@ def _interrupt(number: int, frame: FrameType | None) -> None:
 
 
 def handle_stop_signals(handler: Handler) -> dict[signal.Signals, Any]:
-    """Have this called when a signal says stop; return the handlers before.
+    """Install a handler for the stop signals; return the earlier handlers.
 
-    A command under `nohup` outlives its terminal.
+    Under `nohup`, SIGHUP stays ignored. Outside of the main thread, where Python allows no
+    handlers, this does nothing.
     """
     if threading.current_thread() is not threading.main_thread():
         return {}

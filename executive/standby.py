@@ -1,22 +1,22 @@
-"""Waiting for somebody who was not asked: who experiments, and holds what the robot would do."""
+"""Waiting for an experimenter, who holds what the robot is about to do."""
 
 from executive.events import Inbox
 
 
 class Standby:
-    """Numbers requests that nothing ends; what is awaited comes as an event of its own.
+    """Opens requests that never end by themselves; the awaited decision is a separate event.
 
-    As long as one is open, mission time is real time, as while a person thinks.
+    While one is open, mission time is real time, as while a person thinks.
     """
 
     def __init__(self, inbox: Inbox) -> None:
-        """Wait in this inbox."""
+        """Open requests in this inbox."""
         self._inbox = inbox
 
     def start(self) -> int:
-        """Begin to wait; the number of the request."""
+        """Begin to wait; return the request's number."""
         return self._inbox.open(real=True)
 
     def cancel(self, request: int) -> None:
-        """Wait no more."""
+        """Stop waiting."""
         self._inbox.drop(request)

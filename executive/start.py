@@ -1,4 +1,4 @@
-"""The first thing that a door imports, before all that takes long; itself it takes next to nothing.
+"""The first import of each program: it makes stop signals work during the slow imports after it.
 
 from executive.start import begin
 
@@ -8,8 +8,8 @@ if __name__ == "__main__":
 import argparse
 ...
 
-The console commands come in here, too. Unlike `python -m` they do not import from the folder that
-they are run in.
+The console commands start here, too. Unlike `python -m`, they do not import from the current
+folder.
 """
 
 import gc
@@ -19,10 +19,10 @@ from types import TracebackType
 
 
 def begin() -> None:
-    """Have a signal that says stop end the program without a traceback, also while it imports."""
+    """Let a stop signal end the program without a traceback, also during imports."""
     sys.excepthook = _quiet
-    gc.disable()  # until `entry_point`: all that is imported stays
-    from executive import shell  # takes 50 ms, in which Python raises KeyboardInterrupt
+    gc.disable()  # until `entry_point`: imported modules are never garbage
+    from executive import shell  # takes 50 ms; a signal meanwhile raises KeyboardInterrupt
 
     shell.begin()
 

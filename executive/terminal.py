@@ -1,6 +1,7 @@
-"""Standard output and error as programs may use them: nothing printed harms, no loss of them hurts.
+"""Safe standard output and error: control characters are escaped, and a lost stream is handled.
 
-Values from outside are made printable where they are put into a sentence; this is the net below.
+Values from outside are made printable where they are put into a sentence; this is a second line of
+defence.
 """
 
 import io
@@ -14,37 +15,37 @@ from typing import TextIO, cast
 from executive.text import printable
 
 ROOM_S = 0.05
-"""How long a hurried stream waits for a reader."""
+"""How long (s) a hurried stream waits for its reader."""
 WIDTH = 78
-"""Columns of a line that is written over the one before."""
+"""Width, in columns, of a progress line that overwrites the one before."""
 
 
 class Terminal:
-    """A stream that spells out what a terminal would obey or cannot show.
+    """A stream that escapes control characters, and characters that its encoding lacks.
 
-    If it is lost (the terminal or the pipe closed, the disk full), that is a BrokenPipeError once,
-    with what it was, unless the stream is `dispensable`; what is written later goes nowhere.
+    If the stream is lost (terminal or pipe closed, disk full), it raises BrokenPipeError once, with
+    the cause, unless it is `dispensable`. Later output is discarded.
     """
 
     def __init__(self, stream: TextIO | None, *, dispensable: bool) -> None:
-        """Write to this stream; to nowhere if it is None, as Python has it when it was closed."""
+        """Write to this stream; if it is None, as for closed streams, discard the output."""
         self._stream = stream
         self.dispensable = dispensable
         self.hurried = False
-        """Whether what would have to wait (a terminal under Ctrl-S, a full pipe) is left out."""
+        """Whether to skip output that would block (a terminal under Ctrl-S, a full pipe)."""
         self.lost = ""
-        """Why nothing more is written; empty if it is."""
+        """Why the stream was lost; empty if it was not."""
         self.encoding: str = getattr(stream, "encoding", None) or "utf-8"
-        """How text is written as bytes; ASCII in a terminal that knows no other."""
+        """The encoding of the stream; ASCII in a terminal that supports nothing else."""
 
     def write(self, text: str) -> int:
-        """Write it, with every control character but line breaks and tabs spelled out."""
+        """Write text; control characters other than line breaks and tabs are escaped."""
         shown = "\n".join("\t".join(map(printable, line.split("\t"))) for line in text.split("\n"))
         self.write_raw(shown)
         return len(text)
 
     def write_raw(self, text: str) -> None:
-        """Write what the program itself wants a terminal to obey."""
+        """Write text without escaping, for the program's own control sequences."""
         if self._stream is None or (self.hurried and not self._has_room()):
             return
         encoded = text.encode(self.encoding, "backslashreplace").decode(self.encoding)
@@ -54,14 +55,14 @@ class Terminal:
             self._lose(error)
 
     def write_line(self, text: str, color: int) -> None:
-        """Write a line; in a colour (an SGR code of ECMA-48) if somebody sees colours."""
+        """Write a line, in a colour (an SGR code of ECMA-48) if the terminal shows colours."""
         if self.is_seen() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb":
             self.write_raw(f"\x1b[{color}m{printable(text)}\x1b[0m\n")
         else:
             self.write(f"{printable(text)}\n")
 
     def flush(self) -> None:
-        """Have it written."""
+        """Flush the stream."""
         if self._stream is None:
             return
         try:
@@ -70,22 +71,22 @@ class Terminal:
             self._lose(error)
 
     def fileno(self) -> int:
-        """The number of the file."""
+        """The file descriptor."""
         if self._stream is None:
             raise io.UnsupportedOperation("closed")
         return self._stream.fileno()
 
     def isatty(self) -> bool:
-        """No: what libraries write to terminals only, such as colours, it would spell out."""
+        """False, so that libraries do not write colours, which would be escaped."""
         return False
 
     @property
     def screen(self) -> TextIO | None:
-        """The stream below, for a library that draws on a terminal; None if it is lost."""
+        """The underlying stream, for a library that draws on a terminal; None if it is lost."""
         return self._stream
 
     def is_seen(self) -> bool:
-        """Whether somebody sees it as it is written: it is a terminal, and not a file or a pipe."""
+        """Whether the underlying stream is a terminal, and not a file or a pipe."""
         return self._stream is not None and self._stream.isatty()
 
     def _has_room(self) -> bool:
@@ -95,7 +96,7 @@ class Terminal:
             return True
 
     def _lose(self, error: Exception) -> None:
-        with suppress(OSError, ValueError):  # what waits to be written is written, to nowhere
+        with suppress(OSError, ValueError):  # buffered output goes to /dev/null
             os.dup2(os.open(os.devnull, os.O_WRONLY), self.fileno())
         self._stream = None
         self.lost = getattr(error, "strerror", None) or str(error)
@@ -105,7 +106,7 @@ class Terminal:
 
 @contextmanager
 def standard_streams() -> Iterator[None]:
-    """Have `sys.stdout` and `sys.stderr` be such streams meanwhile."""
+    """Replace `sys.stdout` and `sys.stderr` by `Terminal` streams inside the block."""
     before = sys.stdout, sys.stderr
     if not isinstance(sys.stdout, Terminal):
         sys.stdout = cast(TextIO, Terminal(sys.stdout, dispensable=False))
@@ -118,22 +119,22 @@ def standard_streams() -> Iterator[None]:
 
 
 def open_closed_files() -> None:
-    """Have standard input, output and error be open, to nowhere if they were closed.
+    """Open closed standard streams to /dev/null.
 
-    Otherwise the next file that is opened, such as a log, would get their number, and what a
-    library writes in C to standard error would go into it.
+    Otherwise the next opened file, such as a log, would get the descriptor, and what a C library
+    writes to standard error would go into it.
     """
     for number in (0, 1, 2):
         try:
             os.fstat(number)
         except OSError:
-            os.open(os.devnull, os.O_RDWR)  # gets the lowest number that is free
+            os.open(os.devnull, os.O_RDWR)  # gets the lowest free descriptor
 
 
 def show_over(line: str, out: TextIO | None = None) -> None:
-    """Show a line of progress in place of the one before it (default: on standard error).
+    """Show a progress line that overwrites the one before (default: on standard error).
 
-    In a file or a pipe, where nothing is over another, it is a line of its own.
+    In a file or a pipe, it is a line of its own.
     """
     out = out or sys.stderr
     if isinstance(out, Terminal) and out.is_seen():

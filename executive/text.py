@@ -1,51 +1,51 @@
-"""Text from outside, made fit to be written down, and fit to be shown; and counts in words."""
+"""Cleaning of text from outside, for logs and for terminals; and counts in words."""
 
 import re
 import unicodedata
 
 LONGEST = 1000
-"""Characters of the longest command or answer that is read."""
+"""The largest length of a command or an answer, in characters."""
 
 _KEYS = re.compile(r"\x1b(?:\[[0-?]*[ -/]*[@-~]|O[A-DFHP-S])")
-"""What a terminal sends for a key that is no letter, and would obey if it were printed."""
+"""Escape sequences that a terminal sends for special keys, and would interpret if printed."""
 
 _HIDDEN = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
-"""Unicode categories of what is not seen: controls, marks of direction, line separators, ..."""
+"""Unicode categories of invisible characters: controls, directional marks, separators, ..."""
 _BREAKS = frozenset({"Cc", "Zl", "Zp"})
 
 
 def writable(text: str) -> str:
-    """The text with whole characters only: every log is UTF-8, which has no halves.
+    """The text as it can be encoded in UTF-8, as in every log.
 
-    A byte that is no UTF-8, or half of a surrogate pair (JSON may spell one), becomes U+FFFD; two
-    halves that came one after the other become the character that they are.
+    An invalid byte, or an unpaired surrogate (JSON can contain one), becomes U+FFFD; a pair of
+    surrogates becomes the character that it encodes.
     """
     return text.encode("utf-16", "surrogatepass").decode("utf-16", "replace")
 
 
 def one_line(text: str) -> str:
-    """What was said, as one line of what can be seen: no controls, no marks of direction."""
+    """The words on one line, without invisible characters."""
     apart = "".join(" " if unicodedata.category(c) in _BREAKS else c for c in _KEYS.sub("", text))
     return " ".join("".join(c for c in apart if not _is_hidden(c)).split())
 
 
 def too_long(words: str) -> str:
-    """Why words are not read, as a clause; empty if they are."""
-    begin = unicodedata.normalize("NFKC", words[: LONGEST + 1])  # some letters stand for 18
+    """Why the words are too long, as a clause; empty if they are not."""
+    begin = unicodedata.normalize("NFKC", words[: LONGEST + 1])  # one letter may expand to 18
     long = len(begin) > LONGEST
     return f"what you said is too long, I read at most {LONGEST:,} characters" * long
 
 
 def counted(number: int, noun: str) -> str:
-    """So many of them: `1 call`, `2 calls`."""
+    """A number with its noun: `1 call`, `2 calls`."""
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
 def printable(text: object) -> str:
-    r"""The text on one line, as a terminal may have it.
+    r"""The text on one line, safe for a terminal.
 
-    What a terminal would obey, or what nobody sees (control characters, marks of direction, line
-    breaks), is spelled out as Python does: `\x1b`, `\n`, `\u202e`.
+    Invisible characters (controls, directional marks, line breaks) are escaped as in Python:
+    `\x1b`, `\n`, `\u202e`.
     """
     shown = str(text)
     if shown.isprintable():

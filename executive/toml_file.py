@@ -1,7 +1,7 @@
-"""TOML from outside: one way to read it, whatever it is for.
+"""Safe reading of TOML files from outside.
 
-It is data only: nothing in it is run, opened or fetched. What would be costly or could not be told
-later is refused here: large files, deep nesting, numbers of more than 64 bits.
+Large files, deep nesting and numbers of more than 64 bits are refused: they would be slow to read,
+or could not be written to a log.
 """
 
 import re
@@ -16,20 +16,20 @@ from executive.errors import InputError
 from executive.files import decoded, read_bytes
 
 MOST_BYTES = 2**20
-"""A home of 5,000 pieces of furniture; read in 2 s at most."""
+"""The largest file: a home with 5,000 pieces of furniture, read in 2 s at most."""
 DEEPEST = 16
-"""Tables and arrays within one another."""
+"""The largest depth of nested tables and arrays."""
 _STRING_OR_COMMENT = re.compile(
     r'"""(?:\\.|[^\\])*?(?:"""|\Z)|"(?:\\.|[^"\\\n])*+"?'
     r"|'''.*?(?:'''|\Z)|'[^'\n]*+'?|#[^\n]*+",
     re.DOTALL,
 )
 _LONG_KEY = re.compile(rf"(?:\.[ \t]*+[\w-]++[ \t]*+){{{DEEPEST},}}")
-"""`a.a.a. ...`: the reader takes time with the square of the parts of such a key."""
+"""`a.a.a. ...`: parsing takes time quadratic in the parts of such a key."""
 _LONG_NUMBER = re.compile(r"\d[\d_]{639,}")
-"""Python may refuse an integer of so many digits, and does not say which one it is."""
+"""Python may refuse an integer with so many digits, and does not say which one it is."""
 _SHOWN = 60
-"""So many characters of a key that is wrong are told."""
+"""Messages show this many characters of a wrong key."""
 _MOST_SHOWN = 80
 """Likewise of a value."""
 _TOMLS = {
@@ -57,16 +57,16 @@ def read_toml(path: Path, right: str = "") -> dict[str, Any]:
         right: what to give instead of a file that cannot be read.
 
     Raises:
-        InputError: if it cannot be read or is not TOML, or holds what no file of ours does.
+        InputError: if it cannot be read, is not TOML, or has values that are not allowed.
     """
     return parse_toml(read_bytes(path, MOST_BYTES, right=right), str(path))
 
 
 def parse_toml(content: bytes, where: str) -> dict[str, Any]:
-    """The tables of what a TOML file holds; `where` is what messages call it.
+    """The tables in the content of a TOML file; `where` names it in messages.
 
     Raises:
-        InputError: as of `read_toml`.
+        InputError: as `read_toml`.
     """
     if len(content) > MOST_BYTES:
         raise InputError(where, f"is larger than {MOST_BYTES >> 20} MB", "give a smaller file")
@@ -79,7 +79,7 @@ def parse_toml(content: bytes, where: str) -> dict[str, Any]:
         raise InputError(where, f"is not TOML: {error}") from None
     except RecursionError:
         raise _too_deep(where) from None
-    except ValueError:  # what Python itself refuses to read: a number of thousands of digits
+    except ValueError:  # Python refuses a number with thousands of digits
         number = max(_LONG_NUMBER.finditer(text), key=lambda found: len(found[0]))
         line = text.count("\n", 0, number.start()) + 1
         raise InputError(where, f"line {line} has a number of more than 64 bits") from None
@@ -88,28 +88,28 @@ def parse_toml(content: bytes, where: str) -> dict[str, Any]:
 
 
 def packaged(package: str, folder: str) -> tuple[str, ...]:
-    """Names of the TOML files that come with the project in a folder of a package."""
+    """Names of the TOML files in a folder of one of our packages."""
     entries = files(package).joinpath(folder).iterdir()
     return tuple(sorted(e.name.removesuffix(".toml") for e in entries if e.name.endswith(".toml")))
 
 
 def in_words(said: str) -> str:
-    """What pydantic says of a value, by the names that TOML has for kinds of values."""
+    """A message of pydantic with TOML's names of types."""
     return _PYTHONS.sub(lambda found: _TOMLS.get(found[0].lower(), "table"), said)
 
 
 def shown(value: object) -> str:
-    """A value, or its beginning, as messages have it: `true`, `5`, `'desk'`."""
+    """A value, or its beginning, for messages: `true`, `5`, `'desk'`."""
     text = str(value).lower() if isinstance(value, bool) else repr(value)
     return text if len(text) <= _MOST_SHOWN else f"{text[:_MOST_SHOWN]}..."
 
 
 class Misread(NamedTuple):
-    """A value that was taken for one of another kind: `true` for 1, `"5"` for 5.
+    """A value that pydantic converted to another type: `true` to 1, `"5"` to 5.
 
     Attributes:
-        path: of keys and, in lists, numbers from 0.
-        value: as the file has it.
+        path: keys and, in lists, indices.
+        value: the value in the file.
         right: what it should be.
     """
 
@@ -119,21 +119,21 @@ class Misread(NamedTuple):
 
     @property
     def key(self) -> str:
-        """Where, as messages have it."""
+        """The path, for messages."""
         return ".".join(map(str, self.path))[:_SHOWN]
 
     @property
     def shown(self) -> str:
-        """What, as the file has it."""
+        """The value, for messages."""
         return shown(self.value)
 
 
 def misread(tables: Mapping[str, Any], read: object) -> Iterator[Misread]:
-    """Values that pydantic has taken for what they are not, because it helps where it can.
+    """Find the values that pydantic converted to another type.
 
     Args:
-        tables: as the file has them.
-        read: what was made of them: a model, whose fields have the names of the keys.
+        tables: the tables of the file.
+        read: the model that was made from them; its fields have the names of the keys.
     """
     left: list[tuple[tuple[str | int, ...], Any, Any]] = [((), tables, read)]
     while left:
@@ -147,10 +147,10 @@ def misread(tables: Mapping[str, Any], read: object) -> Iterator[Misread]:
 
 
 def refuse_misread_bools(tables: Mapping[str, Any], read: object, where: str) -> None:
-    """See that no bool of a file was taken for a number, and nothing else for a bool.
+    """Refuse a bool that was read as a number, and any other value that was read as a bool.
 
     Raises:
-        InputError: if one was.
+        InputError: if there is one.
     """
     for one in misread(tables, read):
         if isinstance(one.value, bool) or one.right == _BOOL:
@@ -162,14 +162,14 @@ def _part(made: object, key: str) -> object:
 
 
 def _item(made: object, number: int) -> object:
-    """Of a list; a point or a pose, which is made of one, has nothing but numbers."""
+    """The item of a list; a point or a pose, which is made from a list, has only numbers."""
     if isinstance(made, list | tuple):
         return made[number] if number < len(made) else None
     return None if made is None else 0.0
 
 
 def _other_kind(said: bool | float | str, made: object) -> str:
-    """What a value should have been; empty if it is of the kind that was made of it."""
+    """What the value should be; empty if it already has the type of `made`."""
     if isinstance(made, bool):
         return "" if isinstance(said, bool) else _BOOL
     is_number = isinstance(made, int | float)
@@ -179,7 +179,7 @@ def _other_kind(said: bool | float | str, made: object) -> str:
 
 
 def _check(tables: dict[str, Any], where: str) -> None:
-    """Refuse what no file of ours has; without recursion, as it may be nested at will."""
+    """Refuse values that are not allowed; without recursion, as the nesting may be deep."""
     left: list[tuple[str, Any, int]] = [("", tables, 0)]
     while left:
         key, value, depth = left.pop()

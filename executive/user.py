@@ -1,4 +1,4 @@
-"""Who answers the robot's questions: a person at a console, or who stands in for one."""
+"""Implementations of `User`: a person at a console, and stand-ins for one."""
 
 import random
 import sys
@@ -26,9 +26,9 @@ INPUT_ENDED = "the input has ended"
 FORGOTTEN = "What you said before is forgotten."
 
 CYAN = 36
-"""What the robot says, where colours are seen."""
+"""SGR code for what the robot says, if the terminal shows colours."""
 MOST_LINES = 1000
-"""A script is read no further while so many lines of it wait."""
+"""Reading of a script pauses while this many lines are waiting."""
 POLL_S = 0.05
 NOTHING_TO_STOP = "There is nothing to stop: I am at rest."
 
@@ -46,11 +46,11 @@ def at_rest(words: str) -> str:
 class Console:
     """A person at a terminal.
 
-    One thread reads lines all the time, so that a stop is heard, and answered, at any moment. What
-    else is said goes to whoever asks: a question of the robot, or the prompt for a command. From a
-    terminal, a line that comes while nobody asks is an event of its own: it never becomes the
+    A thread of its own reads all lines, so that a stop is heard, and answered, at any moment. Other
+    lines go to the open request: a question of the robot, or the prompt for a command. From a
+    terminal, a line that comes without an open request is an event of its own: it never becomes the
     answer to a question that the person has not seen. Any other source is a script, whose lines are
-    kept in order. What waits when a stop comes is forgotten.
+    queued. A stop clears the queue.
     """
 
     def __init__(
@@ -60,19 +60,19 @@ class Console:
         self._inbox = inbox
         self._out = out or sys.stderr
         self.aloud: Callable[[str], None] = lambda text: None
-        """Is told what the robot says, to say it aloud."""
+        """Callback for each sentence of the robot, to say it aloud."""
         self.first: Callable[[str], bool] = lambda line: False
-        """Is told each line before it counts, and may take it."""
+        """Callback for each line before it is handled; True if it has taken the line."""
         self._lock = threading.Lock()
         self._lines: deque[str] = deque()
         self._request: int | None = None
         self._prompting = False
         self._begun = False
-        """Whether anything was asked or told so far."""
+        """Whether anything was asked or said so far."""
         self._kept_open = False
         self._typing_is_over = source is None and sys.stdin is None
         self._ended = ""
-        """Why no more lines come; empty if they do."""
+        """Why the input has ended; empty if it has not."""
         source = source or sys.stdin
         self._typed = source is not None and _is_terminal(source)
         self._keyboard = keyboard_of(source, self._out) if source and self._out else None
@@ -102,25 +102,25 @@ class Console:
                 self._rest()
 
     def tell(self, text: str) -> None:
-        """Print it."""
+        """Print a sentence."""
         self._begun = True
         self._say(text)
 
     def says(self, words: str) -> None:
-        """They say this otherwise than at the terminal; any thread may call it."""
+        """Handle words that the person said by other means; any thread may call it."""
         self._hear(words, typed=True)
 
     def mention(self, text: str) -> None:
-        """Say something beside any mission, at once; any thread may call it."""
+        """Say something outside of a mission, at once; any thread may call it."""
         self._say(text)
 
     @property
     def is_busy(self) -> bool:
-        """Whether there may be something to stop: no command is waited for."""
+        """Whether there may be something to stop: the prompt does not wait for a command."""
         return not self._is_idle
 
     def keep_open(self, kept: bool) -> None:
-        """They are heard elsewhere, too: meanwhile, the end of the input ends nothing."""
+        """Set whether the person is heard elsewhere, too; then the end of input has no effect."""
         with self._lock:
             self._kept_open = kept
             if self._typing_is_over:
@@ -128,7 +128,7 @@ class Console:
             self._serve()
 
     def _say(self, text: str) -> None:
-        """Print it; a person who cannot be told is no reason to end anything."""
+        """Print a sentence; errors of the stream are ignored, so that they end nothing."""
         self._speak(text)
         with suppress(OSError, ValueError):
             if isinstance(self._out, Terminal):
@@ -138,18 +138,18 @@ class Console:
                 print(printable(text), file=self._out, flush=True)
 
     def _speak(self, text: str) -> None:
-        """Say it aloud, too."""
+        """Say a sentence aloud."""
         self.aloud(text)
 
     def _prompt(self, request: int) -> int:
-        """Show a prompt, unless a line waited already."""
+        """Show a prompt, unless a queued line has answered the request already."""
         with self._lock:
             if self._keyboard and self._request == request:
                 self._keyboard.prompt()
         return request
 
     def _rest(self) -> None:
-        """Take the prompt away."""
+        """Remove the prompt."""
         if self._keyboard:
             self._keyboard.rest()
 
@@ -158,12 +158,12 @@ class Console:
         with self._lock:
             self._begun = True
             if self._typed and not prompting:
-                self._lines.clear()  # typed before the question was seen
+                self._lines.clear()  # typed before the person saw the question
             self._request, self._prompting = request, prompting
             self._serve()
         return request
 
-    # --- from here on in the thread that reads ---
+    # --- from here on in the reading thread ---
 
     def _read(self, source: TextIO) -> None:
         for line in self._keyboard.lines() if self._keyboard else _lines(source):
@@ -181,7 +181,7 @@ class Console:
             self._end(INPUT_ENDED)
 
     def _hear(self, line: str, *, typed: bool = False) -> Control | None:
-        """Do with a line what is to be done; `typed` if it was not kept for later in a script."""
+        """Handle a line; `typed` if the person says it now, so that it must not be queued."""
         words, said = one_line(line), control(line)
         if self.first(words):
             return None
@@ -196,7 +196,7 @@ class Console:
         return said
 
     def _keep(self, words: str, typed: bool) -> bool:
-        """Give a line to who asks, or keep it until somebody does; whether it was taken."""
+        """Give a line to the open request, or queue it; return whether either was possible."""
         with self._lock:
             taken = self._request is not None or not (typed and self._begun)
             if taken:
@@ -218,7 +218,7 @@ class Console:
         return self._prompting and self._request is not None
 
     def _quit(self) -> None:
-        """In a script it ends the input; at a terminal, what runs is stopped, too."""
+        """End the input; at a terminal, also stop a mission that runs."""
         with self._lock:
             runs = self._typed and not self._is_idle
         if runs:
@@ -231,7 +231,7 @@ class Console:
             self._serve()
 
     def _serve(self) -> None:
-        """Give the oldest line to whoever waits; the lock is held."""
+        """Give the oldest line to the open request; the caller holds the lock."""
         if self._request is None:
             return
         if self._lines:
@@ -252,7 +252,7 @@ def _is_terminal(source: TextIO) -> bool:
 
 
 def _lines(source: TextIO) -> Iterator[str]:
-    """The lines as they come, of too long ones the beginning; ends if no more can be read."""
+    """The lines, those that are too long cut off; ends if no more can be read."""
     if isinstance(source, TextIOWrapper):
         with suppress(UnsupportedOperation):
             source.reconfigure(errors="replace")
@@ -270,7 +270,7 @@ def _lines(source: TextIO) -> Iterator[str]:
 
 
 class _Prompt:
-    """What the simulated persons share: they answer at once."""
+    """Base of the simulated persons, who answer at once."""
 
     def __init__(self, inbox: Inbox, out: TextIO | None = None) -> None:
         self._inbox = inbox
@@ -282,7 +282,7 @@ class _Prompt:
         self._inbox.drop(request)
 
     def tell(self, text: str) -> None:
-        """Keep what was said, and print it if there is where to."""
+        """Keep the sentence in `told`, and print it if there is an output."""
         self.told.append(text)
         self._print(text)
 
@@ -300,10 +300,10 @@ class _Prompt:
 
 
 class Oracle(_Prompt):
-    """The paper's simulated user, who always answers right.
+    """The paper's simulated user, who always answers correctly.
 
-    Of a class of things it means one that is in the home, chosen by the seed, and sticks to it.
-    What the robot makes of its words is right if such a thing is in the home.
+    For a class of things, it chooses one that is in the home, by the seed, and keeps to it. It
+    confirms the robot's understanding if such a thing is in the home.
     """
 
     def __init__(
@@ -313,14 +313,14 @@ class Oracle(_Prompt):
         seed: int = 0,
         out: TextIO | None = None,
     ) -> None:
-        """`where` tells, by the world's truth, on which furniture an object is (None: nowhere)."""
+        """`where` gives the ground truth: the furniture that an object is on (None: on none)."""
         super().__init__(inbox, out)
         self._where = where
         self._random = random.Random(seed)
         self._meant: dict[str, str] = {}
 
     def ask(self, question: Question) -> int:
-        """Answer from the truth."""
+        """Answer from the ground truth."""
         match question.kind:
             case QuestionKind.WHERE_IS:
                 answer = self._where(question.about)
@@ -338,10 +338,10 @@ class Oracle(_Prompt):
 
 
 class Scripted(_Prompt):
-    """Gives prepared answers, for tests: None stays silent for ever; no more answers is Failed."""
+    """Gives prepared answers, for tests: None never ends; without answers left, it is Failed."""
 
     def __init__(self, inbox: Inbox, answers: Iterable[str | None] = ()) -> None:
-        """Answer in this order."""
+        """Give these answers, in order."""
         super().__init__(inbox)
         self._answers = deque(answers)
         self.asked: list[Question] = []
@@ -358,7 +358,7 @@ class Scripted(_Prompt):
 
 
 class Nobody(_Prompt):
-    """Nobody is there: every question fails at once."""
+    """No person: every question fails at once."""
 
     def ask(self, question: Question) -> int:
         """Fail."""

@@ -1,4 +1,4 @@
-"""The composition root: the only place that knows all rooms of the house."""
+"""The composition root: the only package that knows all other packages."""
 
 from executive.app.session import Session
 

@@ -1,6 +1,6 @@
-"""How known things are held, where they can stand and what is around them.
+"""Grasps, spots, base poses and obstacles from the known shapes of things and furniture.
 
-For a robot that has motions, but no skills.
+For a robot that can plan motions, but has no skills of its own.
 """
 
 import math
@@ -23,23 +23,23 @@ from sim.home.home import Home
 from sim.objects.objects import ObjectModel
 
 EYE_M = 1.2
-"""Things are seen from about so high above the base."""
+"""The approximate height of the camera above the base (metres)."""
 WAYS, SPOTS = 4, 8
-"""So many different grasps of each tilt of the hand, and so many spots of a surface, are told."""
+"""The largest number of grasps for each tilt of the hand, and of spots for each surface."""
 ON_FLOOR_M = 0.3
-"""What is lower, and not on the furniture before the robot, lies on the floor."""
+"""A thing below this height, and not on the furniture before the robot, is on the floor."""
 AROUND_M = 2.5
-"""Furniture that is farther away is not in an arm's way."""
+"""Furniture that is farther away is no obstacle for the arm (metres)."""
 
 
 class KnownThings:
-    """Implements `Hands` by the shapes of the home's objects, as the simulated robot has them.
+    """Implements `Hands` with the shapes of the home's objects, as the simulated robot does.
 
-    Its parts take long to import, and only such a robot needs them.
+    What it uses is slow to import, and is imported when it is needed.
     """
 
     def __init__(self, home: Home) -> None:
-        """Nothing is computed before it is asked for."""
+        """Use the objects and furniture of this home."""
         self._home = home
 
     @cached_property
@@ -47,7 +47,7 @@ class KnownThings:
         return self._home.drawn_models()
 
     def grasps(self, detection: Detection, base: Pose) -> Sequence[Hold]:
-        """Ways to hold what is seen, the best first: straight down before level."""
+        """Grasps for a detected thing, the best first: from above before horizontal."""
         model = self._models.get(detection.label)
         if model is None or not len(detection.points):
             return ()
@@ -68,7 +68,7 @@ class KnownThings:
                     yield Hold(where, grasp.gap, thing, box, grip_force(model, thing, hand))
 
     def spots(self, place: str, label: str, seen: Floats) -> Sequence[Pose]:
-        """Where on a place the thing can stand, the handiest first."""
+        """Poses in which the thing can stand on the furniture, the easiest first."""
         from sim.manipulation.placing import free_spots
 
         piece, model = self._home.furniture_named(place), self._models[label]
@@ -81,7 +81,7 @@ class KnownThings:
     def stances(
         self, place: str | None, point: Vector3, base: Pose, near_m: float
     ) -> Sequence[Planar]:
-        """Opposite the point, before the front edge of the place; or around it, on the floor."""
+        """Base poses in front of the furniture, opposite the point; or around it, on the floor."""
         from sim.manipulation.reaching import floor_poses, standing_poses
 
         target, piece = np.array(point), self._piece(place)
@@ -93,12 +93,12 @@ class KnownThings:
         return [(float(x), float(y), float(yaw)) for x, y, yaw in poses]
 
     def _piece(self, place: str | None) -> Furniture | None:
-        """What the robot stands before; None if that is no furniture, but the person."""
+        """The furniture before which the robot stands; None if it is with the person."""
         pieces = (*self._home.furniture, self._home.delivery)
         return next((piece for piece in pieces if piece.name == place), None)
 
     def obstacles(self, base: Pose) -> Sequence[Obstacle]:
-        """The furniture around, as it is built."""
+        """The shapes of the furniture around the robot."""
         x, y, _ = base.position
         pieces = (*self._home.furniture, self._home.delivery)
         return [
@@ -110,6 +110,6 @@ class KnownThings:
 
 
 def _box(model: ObjectModel) -> Shape:
-    """What a thing fits into, in its own frame."""
+    """The bounding box of a thing, in its own frame."""
     x, y, z = ((low + high) / 2 for low, high in zip(model.lower, model.upper, strict=True))
     return Shape("box", model.size, (0.0, 0.0, 0.0, 1.0), Pose((x, y, z)))

@@ -1,4 +1,4 @@
-"""A simulated home that goes on living: things stay where they were left, program after program."""
+"""A simulated home that persists: things stay where they were left when a program ends."""
 
 import logging
 import time
@@ -19,26 +19,26 @@ log = logging.getLogger(__name__)
 
 
 class LivingHome:
-    """The things and the time of a home, from one mission to the next and to the next program.
+    """The things and the time of a home, kept between missions and between programs.
 
-    Between two missions things are taken elsewhere as the habits of those who live there have it;
-    while the robot is at it, nobody takes anything.
+    Between two missions the residents move things by their habits; during a mission nobody moves
+    anything.
 
-    What is on no furniture when a mission ends, in the hand or on the floor, is put back to where
-    it was before by whoever lives there, once the program has ended.
+    A thing that is on no furniture at the end of a mission, in the hand or on the floor, is at its
+    place before the mission when the next program starts: the residents have put it back.
     """
 
     def __init__(self, settings: Settings, home: Home) -> None:
-        """Know where the things were left.
+        """Read where the things were left.
 
         Raises:
-            InputError: if the file is none of ours, or does not fit to the home.
+            InputError: if the file is malformed, or is for another home.
         """
         self._file = settings.home_state
         before = read_state(self._file, home) if self._file else None
         spots = dict(before.objects) if before else {}
         self.left = {name: spot for name, spot in spots.items() if name not in settings.place}
-        """What is elsewhere than the home file and `--place` say."""
+        """The things that are elsewhere than the home file and `--place` say."""
         self.home = home.as_left(self.left)
         self._spots = dict(self.home.objects)
         self._habits = load_habits(settings.habits, home) if settings.habits else None
@@ -49,16 +49,16 @@ class LivingHome:
         self._during: Clock | None = None
 
     def now(self) -> float:
-        """What time it is there: UTC (s); it is never earlier than when things were left."""
+        """The time in the home: UTC (s); never earlier than when things were left."""
         if self._world is None:
             return time.time()
         return self._time_s + (self._during.now() if self._during else 0.0)
 
     def move_in(self, embodiment: Embodiment) -> Embodiment:
-        """Have the home live with this body from now on.
+        """Connect the home with an embodiment, so that its state is kept and its habits apply.
 
         Raises:
-            InputError: if the body is in no world of ours, or the file cannot be written.
+            InputError: if the world is not one of ours, or the file cannot be written.
         """
         asked = [name for name, on in (("home_state", self._file), ("habits", self._habits)) if on]
         if not asked:
@@ -84,7 +84,7 @@ class LivingHome:
         self._time_s += seconds
 
     def _live_on(self) -> None:
-        """Let the time pass that nothing was asked for, and people do what they are used to."""
+        """Advance the time since the last mission, and move things by the residents' habits."""
         since = self._time_s if self._lived_s is None else self._lived_s
         self._time_s += self._hours * 3600.0
         if self._habits and self._world:
@@ -96,7 +96,7 @@ class LivingHome:
         self._lived_s = self._time_s
 
     def _end(self) -> None:
-        """Keep where things are now; that it cannot be written is no reason to end otherwise."""
+        """Save where things are now; if the file cannot be written, only warn."""
         self._time_s, self._during = self.now(), None
         self._lived_s = self._time_s
         if self._file is None:
@@ -118,7 +118,7 @@ class LivingHome:
 
 
 def _plain(spot: Spot) -> Spot:
-    """Where it is, without what else an entry of a home file says."""
+    """The position alone, without the other values of an entry in a home file."""
     return Spot.model_construct(
         furniture=spot.furniture, surface=spot.surface, at=spot.at, yaw=spot.yaw
     )

@@ -1,6 +1,6 @@
-"""Parts of somebody's own, by name: `package.module:function` on the command line.
+"""Loads code of users by name: `package.module:function` on the command line.
 
-Whatever their code raises is told in a sentence, and `-vv` says where it was raised.
+An exception of their code becomes one sentence; `-vv` shows the traceback.
 """
 
 import importlib
@@ -23,7 +23,7 @@ log = logging.getLogger(__name__)
 
 @dataclass(frozen=True)
 class Named:
-    """A name as it was given, for instance after `--world`; `right` is what it should be."""
+    """The name of a function as given to an option; `right` says what it should be."""
 
     option: str
     name: str
@@ -31,19 +31,19 @@ class Named:
 
     @property
     def where(self) -> str:
-        """Where a fault of it is."""
+        """The option and name, for error messages."""
         return f"{self.option} {self.name}"
 
     def imported(self) -> Callable[[Any], object]:
-        """The function of this name, or what else can be called.
+        """Import the function, or other callable, of this name.
 
         Raises:
-            InputError: if there is none, or its module cannot be imported.
+            InputError: if it does not exist, or its module cannot be imported.
         """
         module_name, _, attribute = self.name.partition(":")
         here = str(Path.cwd())
         if here not in sys.path:
-            sys.path.append(here)  # a console script does not look where it is started
+            sys.path.append(here)  # a console script does not import from the current folder
         try:
             module = importlib.import_module(module_name)
         except ModuleNotFoundError as error:
@@ -60,10 +60,10 @@ class Named:
         return found
 
     def called(self, function: Callable[[Any], object], given: object, kind: type[T]) -> T:
-        """What the function returns for what it is given.
+        """Call the function with `given`; return its result, which must be a `kind`.
 
         Raises:
-            ExecutiveError: if it raises, or returns something of another kind.
+            ExecutiveError: if it raises, or returns something of another type.
         """
         try:
             made = function(given)

@@ -1,4 +1,4 @@
-"""What a mission leaves on disk: its logs, and what they keep of how it came about."""
+"""The logs of a mission, with the settings, knowledge and state that a replay needs."""
 
 import json
 import logging
@@ -31,10 +31,10 @@ class Recording:
     """How the missions of a session are recorded.
 
     Attributes:
-        used: what is kept of settings and body (`files_used`, `body_used`).
-        parts: what the missions are made of.
-        policy: what it calls the way in which the parts were chosen.
-        view: whether someone watches.
+        used: attachments about settings and body (`files_used`, `body_used`).
+        parts: the parts of the missions.
+        policy: name of the policy that chose the parts.
+        view: whether to open a viewer.
     """
 
     used: dict[str, bytes]
@@ -45,9 +45,9 @@ class Recording:
     def sinks(
         self, folder: Path, started: datetime, before: dict[str, str]
     ) -> tuple[list[Sink], bool]:
-        """The logs of a mission, as `open_sinks` has them.
+        """Open the logs of a mission, as `open_sinks` does.
 
-        `before` is what was known of the robot when it began.
+        `before` is the state at its beginning, as metadata.
         """
         write(folder / "config.toml", self.used["config.toml"].decode())
         attachments = {
@@ -70,7 +70,7 @@ class Recording:
             **({"learns": str(True)} if self.parts.experience else {}),
             **{name: version(name) for name in PACKAGES},
         }
-        from logs.viewer.sink import RerunSink  # takes long
+        from logs.viewer.sink import RerunSink  # slow to import
 
         return open_sinks(
             lambda: McapSink(folder / "mission.mcap", started, attachments, metadata),
@@ -83,14 +83,14 @@ class Recording:
 
 
 def files_used(settings: Settings) -> dict[str, bytes]:
-    """What a recording keeps of the settings, as it is now: by name, the files' contents.
+    """The attachments about the settings, by name: contents of the files that they use.
 
     Raises:
         InputError: if one of them cannot be read.
     """
     prompts, profile = settings.prompts, b""
     if settings.robot and settings.profile:
-        from executive.ros.profile import profile_text  # most missions do without
+        from executive.ros.profile import profile_text  # most missions do not need it
 
         profile, _ = profile_text(settings.profile)
     return {
@@ -102,10 +102,10 @@ def files_used(settings: Settings) -> dict[str, bytes]:
 
 
 def body_used(parts: Parts) -> dict[str, bytes]:
-    """What a recording keeps of the body: a replay has none to ask.
+    """The attachment about the body, which a replay cannot ask.
 
-    That is whether things have positions in `map`, which places take more than one view, which
-    objects it does not recognise, and whether it has an arm.
+    It says whether things have positions in `map`, which places need more than one view, which
+    objects perception does not recognise, and whether the robot has an arm.
     """
     robot = GuardedRobot(parts.robot, parts.inbox, parts.recorder)
     views = {place: robot.views(place) for place in places_viewed(parts.home)}
@@ -116,14 +116,14 @@ def body_used(parts: Parts) -> dict[str, bytes]:
 
 
 def places_viewed(home: Home) -> tuple[str, ...]:
-    """All that a robot may be told to look at."""
+    """All places that a robot may have to look at."""
     return (*(place.name for place in home.places()), DELIVERY, FLOOR)
 
 
 def open_sinks(*makers: Callable[[], Sink]) -> tuple[list[Sink], bool]:
-    """The logs that can be opened, and whether these are all.
+    """Open the logs; return those that could be opened, and whether these are all.
 
-    For the others there is a warning, because the mission goes on.
+    For the others there is a warning, and the mission goes on without them.
     """
     sinks = []
     for make in makers:

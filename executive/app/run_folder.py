@@ -1,4 +1,4 @@
-"""The folder that a mission leaves behind."""
+"""The folder with the files of one mission."""
 
 import json
 import logging
@@ -20,7 +20,7 @@ LONGEST_WORDS = 1000
 
 
 def new_folder(runs: Path, started: datetime, words: str) -> Path:
-    """Make `runs/<UTC>-<slug>/`; a number is added if it exists.
+    """Make `runs/<UTC>-<slug>/`, with a number if it exists.
 
     Raises:
         InputError: if the folder cannot be made.
@@ -47,9 +47,9 @@ def new_folder(runs: Path, started: datetime, words: str) -> Path:
 
 
 def write(file: Path, text: str) -> bool:
-    """Write a file of the run, whole or not at all, and return whether it was.
+    """Write a file of the run atomically; return whether that worked.
 
-    A full disk must not end the mission, so it only warns.
+    It only warns if not, because a full disk must not end the mission.
     """
     new = file.with_name(f"{file.name}.new")
     try:
@@ -64,5 +64,5 @@ def write(file: Path, text: str) -> bool:
 
 
 def to_json(outcome: Outcome) -> str:
-    """The outcome on one line."""
+    """The outcome as JSON on one line."""
     return json.dumps(asdict(outcome))

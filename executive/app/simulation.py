@@ -1,4 +1,4 @@
-"""The two simulated bodies: in PyBullet, and in the instant world."""
+"""The two simulated embodiments: in PyBullet, and in the instant world."""
 
 from collections.abc import Callable
 
@@ -18,10 +18,10 @@ from sim.home.state import with_room
 
 
 def faults_of(settings: Settings, home: Home) -> tuple[Fault, ...]:
-    """What is to go wrong in the simulated home.
+    """The faults to inject into the simulated home.
 
     Raises:
-        InputError: if a fault is none, or takes physics and the world has none.
+        InputError: if a fault is unknown, or needs physics and the world has none.
     """
     faults = parse_faults(settings.fault, home)
     if settings.world == "fake":
@@ -30,10 +30,10 @@ def faults_of(settings: Settings, home: Home) -> tuple[Fault, ...]:
 
 
 def fake(setup: Setup) -> Embodiment:
-    """The instant world, in which things are on furniture, and have no positions.
+    """The instant world, in which things are on furniture and have no positions.
 
     Raises:
-        InputError: if a fault is none, or takes physics.
+        InputError: if a fault is unknown, or needs physics.
     """
     faults = faults_of(setup.settings, setup.home)
     world = FakeWorld(setup.home, setup.inbox, setup.recorder)
@@ -57,14 +57,14 @@ def fake(setup: Setup) -> Embodiment:
 
 
 def physics(setup: Setup) -> Embodiment:
-    """PyBullet.
+    """The world in PyBullet.
 
     Raises:
-        InputError: if a fault is none, or a file is wrong.
+        InputError: if a fault is unknown, or a file is wrong.
     """
     from sim.objects.ycb import with_scans
     from sim.pictures.beside import worthwhile
-    from sim.world import PhysicsWorld  # takes long: the model loads meanwhile
+    from sim.world import PhysicsWorld  # slow to import; the model loads meanwhile
 
     settings = setup.settings
     faults = faults_of(settings, setup.home)
@@ -99,7 +99,7 @@ def physics(setup: Setup) -> Embodiment:
 
 
 def blind_to(home: Home, detector: Detector) -> tuple[str, ...]:
-    """The objects that the home declares and the detector would not recognise."""
+    """The objects that the home declares and the detector does not know."""
     labels = getattr(detector, "labels", None)
     return () if labels is None else tuple(name for name in home.own if name not in labels)
 

@@ -1,4 +1,4 @@
-"""Knowledge sources as a session is given them, and as a recording keeps them for its replay."""
+"""Knowledge sources of others: their validation, and their answers in recordings and replays."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
@@ -17,17 +17,17 @@ from executive.types.knowledge import Source
 T = TypeVar("T")
 
 TAKEN = frozenset({*Source, ANYWHERE, PLAN, "person", "eyes"})
-"""Whose word something is in logs and outcomes besides."""
+"""Names that logs and outcomes already use."""
 RIGHT = "a source has a name, a clause that says who says so, and places_of (docs/knowledge.md)"
 
 # --- given ---
 
 
 def checked(sources: object) -> tuple[PlaceSource, ...]:
-    """These sources, each of which can be asked and told from the others.
+    """Validate the sources that a session is given.
 
     Raises:
-        InputError: if they are no list of such.
+        InputError: if it is not a list of sources with different names.
     """
     if isinstance(sources, str | bytes | Mapping) or not isinstance(sources, Iterable):
         what = f"one {type(sources).__name__} is no list"
@@ -45,7 +45,7 @@ def checked(sources: object) -> tuple[PlaceSource, ...]:
 
 
 def _name_of(where: str, source: object) -> str:
-    """The name of a source that is as it should be."""
+    """Validate one source; return its name."""
     if isinstance(source, type):
         what = f"is the class {source.__name__}, and no source"
         raise InputError(where, what, f"call it: {source.__name__}(...)")
@@ -78,10 +78,10 @@ def _attribute(where: str, source: object, name: str) -> object:
 
 @dataclass(frozen=True, slots=True)
 class Written:
-    """A source as `sources.json` has it.
+    """A source in `sources.json`.
 
-    `places` is of earlier recordings, which kept there what it knew of each thing. Since then each
-    answer is a record, where it was given.
+    Only earlier recordings have `places`, the answer about each thing. Later ones have a record for
+    each answer.
     """
 
     name: str
@@ -91,9 +91,9 @@ class Written:
 
 @dataclass(frozen=True, slots=True)
 class RecordedSource:
-    """Implements `PlaceSource`: what a source answered in a mission, in that order.
+    """Implements `PlaceSource` with the answers of a recorded mission, in order.
 
-    The last answer about a thing is given again and again.
+    The last answer about a thing is repeated.
     """
 
     name: str
@@ -101,38 +101,38 @@ class RecordedSource:
     answers: Mapping[str, list[tuple[str, ...]]]
 
     def places_of(self, name: str) -> tuple[str, ...]:
-        """The next answer."""
+        """The next recorded answer about a thing."""
         return _next(self.answers, name)
 
 
 class RecordedExperience:
-    """Implements `Experience`: what had been learned in a mission, answer by answer.
+    """Implements `Experience` with the answers of a recorded mission, in order.
 
-    The last answer about a thing is given again and again.
+    The last answer about a thing is repeated.
     """
 
     def __init__(self, answers: Iterable[Recalled]) -> None:
-        """Know these answers."""
+        """Use these answers."""
         self._told: dict[str, list[tuple[Statement, ...]]] = {}
         for answer in answers:
             self._told.setdefault(answer.thing, []).append(statements_of(answer))
 
     def learn(self) -> None:
-        """Nothing more."""
+        """Do nothing."""
 
     def recalled(self, name: str) -> tuple[Statement, ...]:
-        """The next answer."""
+        """The next recorded answer about a thing."""
         return _next(self._told, name)
 
 
 def _next(answers: Mapping[str, list[tuple[T, ...]]], thing: str) -> tuple[T, ...]:
-    """The next answer about a thing: of several each is given once, but the last for ever."""
+    """The next answer about a thing; the last one is repeated."""
     left = answers.get(thing, [()])
     return left.pop(0) if len(left) > 1 else left[0]
 
 
 def statements_of(answer: Recalled) -> tuple[Statement, ...]:
-    """What was said, as it is recorded."""
+    """The statements in a record."""
     each = tuple(zip(answer.says, answer.places, answer.weights, strict=False))
     return tuple(
         Statement(source, tuple((p, w) for who, p, w in each if who == source), trust)
@@ -144,7 +144,7 @@ _FILE = TypeAdapter(tuple[Written, ...])
 
 
 def written(sources: Iterable[PlaceSource]) -> bytes:
-    """What the sources are called, as JSON; none is asked anything."""
+    """Names and clauses of the sources, as JSON for a recording."""
     named = tuple(Written(printable(source.name), printable(source.says)) for source in sources)
     return _FILE.dump_json(named, exclude_defaults=True)
 
@@ -152,10 +152,10 @@ def written(sources: Iterable[PlaceSource]) -> bytes:
 def read(
     file: str, text: bytes, answers: Iterable[SourceAnswer] = ()
 ) -> tuple[RecordedSource, ...]:
-    """The sources that were written, which give these answers.
+    """Read the sources of a recording, with their recorded answers.
 
     Raises:
-        InputError: if something else was written; `file` says what was read.
+        InputError: if `text` is malformed; `file` names it in the message.
     """
     try:
         sources = _FILE.validate_json(text)

@@ -1,4 +1,4 @@
-"""Gives a person ears that hear them, and a voice, as the settings say."""
+"""Sets up speech recognition and speech output, as the settings say."""
 
 from contextlib import ExitStack
 from pathlib import Path
@@ -18,13 +18,13 @@ from kb.ontology.ontology import Ontology
 
 
 def speak_aloud(parts: Parts, opened: ExitStack) -> Doubt | None:
-    """Begin to speak and to listen, if that is wanted; it ends with `opened`.
+    """Start speech output and recognition, if the settings ask for them; `opened` closes them.
 
     Returns:
-        Who takes in what ears hear, ours or a page's; None if there is no person to be heard.
+        What takes in recognised speech, ours or a page's; None if there is no person.
 
     Raises:
-        InputError: if something that it takes is not there, or nobody is there to be heard.
+        InputError: if something that it needs is missing, or there is no person.
     """
     settings = parts.settings
     if not isinstance(parts.user, Console):
@@ -46,10 +46,10 @@ def speak_aloud(parts: Parts, opened: ExitStack) -> Doubt | None:
 def listen(
     parts: Parts, person: Console, doubt: Doubt, voice: Voice | None, opened: ExitStack
 ) -> None:
-    """Hear the person from now on.
+    """Start to listen to the person.
 
     Raises:
-        InputError: if ears or microphone cannot be had.
+        InputError: if recogniser or microphone cannot be opened.
     """
     from executive.speech.spotting import StopSpotter  # of the extra `speech`
 
@@ -63,10 +63,10 @@ def listen(
 
 
 def ears_of(parts: Parts, person: Console) -> Ears:
-    """The ears that the settings name; the person is told where sound goes.
+    """The recogniser that the settings name; if it is a server, the person is told.
 
     Raises:
-        InputError: if they cannot be had.
+        InputError: if it cannot be opened.
     """
     from executive.speech.sphinx import PocketsphinxEars  # of the extra `speech`
 
@@ -80,7 +80,7 @@ def ears_of(parts: Parts, person: Console) -> Ears:
         folder = Path(settings.ears).expanduser()
         own = SherpaEars(folder, settings.ears_language)
         return Agreeing(own, local, parts.interpreter.agrees)
-    from executive.speech.server import ServerEars  # loads a client of HTTP
+    from executive.speech.server import ServerEars  # imports an HTTP client
 
     server = ServerEars(
         settings.ears,
@@ -95,7 +95,7 @@ def ears_of(parts: Parts, person: Console) -> Ears:
 
 
 def vocabulary(knowledge: Ontology) -> Vocabulary:
-    """What is spoken of in this home, by the names that lead to its things and places."""
+    """The names of the things and places of this home."""
     names = dict.fromkeys(spoken(name) for name in knowledge.names())
     things = [name for name in names if knowledge.objects_named(name)]
     places = [name for name in names if knowledge.places_named(name)]
@@ -103,5 +103,5 @@ def vocabulary(knowledge: Ontology) -> Vocabulary:
 
 
 def _is_plain(name: str) -> bool:
-    """Whether it is of words alone: signs and digits mean something else in a grammar of speech."""
+    """Whether a name has only letters: the grammar cannot have other characters."""
     return name.isascii() and name.replace(" ", "").isalpha()

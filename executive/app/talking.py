@@ -1,4 +1,4 @@
-"""What is said between missions: answers that need none, and what was spoken of last."""
+"""Replies between missions that need no mission, and what was spoken of last."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -15,7 +15,7 @@ from executive.types.outcome import Outcome, TaskOutcome
 
 
 def answer(words: str, parts: Parts, before: Before) -> tuple[str, Before]:
-    """The answer to what needs no mission, empty if it does; and how things stand then."""
+    """The reply to words that need no mission (else empty), and the state after it."""
     things = [spoken(name) for name in parts.knowledge.objects()]
     if courtesy := parts.interpreter.talk(words, things):
         return courtesy, before
@@ -28,7 +28,7 @@ def answer(words: str, parts: Parts, before: Before) -> tuple[str, Before]:
 
 
 def remember(words: str, outcome: Outcome, parts: Parts, before: Before) -> Before:
-    """How things stand after a mission, with what was spoken of in it."""
+    """The state after a mission, with what was spoken of in it."""
     said = parts.interpreter.read(words)
     goes_on = isinstance(said, Correction) and said.adds  # "and the pear": "both" are spoken of
     known = before.spoken.things if goes_on else ()
@@ -39,7 +39,7 @@ def remember(words: str, outcome: Outcome, parts: Parts, before: Before) -> Befo
 
 
 def _standing(before: Before) -> Standing:
-    """What the robot can tell of itself, and of the last mission."""
+    """What the robot can tell about itself and the last mission."""
     last = before.last
     if last is None:
         return Standing(before.in_hand, stands=before.stands)
@@ -55,7 +55,7 @@ def _standing(before: Before) -> Standing:
 
 
 def _put_at(task: TaskOutcome) -> Iterator[str]:
-    """Where things were put down."""
+    """The places where a task put things down."""
     for part in task.parts:
         yield from _put_at(part)
     if task.put_at:
@@ -63,7 +63,7 @@ def _put_at(task: TaskOutcome) -> Iterator[str]:
 
 
 def _things_of(task: TaskOutcome) -> Iterator[str]:
-    """The things that a task turned out to be about; of a question, those that were seen."""
+    """The things that a task was about; of a question, those that were seen."""
     yield from task.things
     for part in task.parts:
         yield from _things_of(part)

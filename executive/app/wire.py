@@ -1,4 +1,4 @@
-"""A robot over the wire as the body of missions: `--robot ws://HOST:PORT --profile NAME`."""
+"""The embodiment for a robot over rosbridge: `--robot ws://HOST:PORT --profile NAME`."""
 
 from collections.abc import Callable
 from functools import partial
@@ -23,10 +23,10 @@ from sim.navigation.grid import OccupancyGrid
 
 
 def wire(setup: Setup) -> Embodiment:
-    """A robot behind rosbridge; nothing of it moves yet.
+    """Connect to a robot; nothing moves yet.
 
     Raises:
-        InputError: if nobody answers there, or the profile is wrong or does not fit.
+        InputError: if there is no answer, or the profile is wrong or does not fit.
     """
     settings = setup.settings
     if settings.profile is None:
@@ -59,7 +59,7 @@ def wire(setup: Setup) -> Embodiment:
 
 
 def ways_of(home: Home, profile: Profile) -> Callable[[str, str], float]:
-    """How long ways take by the home's map (s): a robot that is slower than ours takes longer."""
+    """A function for the duration (s) of drives by the home's map, for the profile's speed."""
     if profile.camera.tags:
         return partial(straight_s, home)
     durations = durations_in(home, OccupancyGrid.from_home(home))

@@ -1,4 +1,4 @@
-"""`--world` and `--robot`: which body a mission has."""
+"""Chooses the embodiment by `--world` and `--robot`."""
 
 from collections.abc import Mapping
 
@@ -12,11 +12,11 @@ RIGHT = "name a function that takes a Setup and returns an Embodiment (docs/own-
 
 
 def embody(setup: Setup) -> Embodiment:
-    """The embodiment that the settings name.
+    """Build the embodiment that the settings name.
 
     Raises:
-        InputError: if one of somebody's own cannot be imported or built, or lacks what the
-            settings ask for.
+        InputError: if a user's own cannot be imported or built, or lacks what the settings ask
+            for.
     """
     name = setup.settings.world
     if setup.settings.profile and not setup.settings.robot:
@@ -26,7 +26,7 @@ def embody(setup: Setup) -> Embodiment:
             "give --robot ws://HOST:PORT, too, or leave --profile out",
         )
     if setup.settings.robot:
-        from executive.app.wire import wire  # websockets take a while to import
+        from executive.app.wire import wire  # websockets is slow to import
 
         embodiment = wire(setup)
     else:
@@ -41,10 +41,10 @@ def embody(setup: Setup) -> Embodiment:
 
 
 def try_world(name: str) -> None:
-    """See that there is such a world; it is not opened.
+    """Check that a world exists, without opening it.
 
     Raises:
-        InputError: if it is one of somebody's own that cannot be imported.
+        InputError: if it is a user's own and cannot be imported.
     """
     if name not in OURS:
         Named("--world", name, RIGHT).imported()

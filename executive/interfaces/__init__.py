@@ -1,7 +1,8 @@
-"""Every seam of the system. An adapter for a real robot, camera or model implements one of these.
+"""All interfaces of the system. An adapter for a real robot, camera or model implements one.
 
-All slow work has one shape: a method that starts it returns a request number at once, its end
-comes as an `Ended` event with that number, and `cancel` calls it off. Only `Clock.wait` blocks.
+All slow work is asynchronous: the method that starts it returns a request number at once, the
+result comes as an `Ended` event with that number, and `cancel` aborts it. Only `Clock.wait`
+blocks.
 """
 
 from executive.interfaces.dialogue import Interpreter, User

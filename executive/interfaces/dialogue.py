@@ -1,4 +1,4 @@
-"""The person, and who reads what they say."""
+"""Interfaces to the person, and to the parser of what they say."""
 
 from collections.abc import Sequence
 from typing import Protocol
@@ -10,12 +10,12 @@ from executive.types.dialogue import Question
 
 
 class User(Protocol):
-    """The person, or who stands in for them."""
+    """The person, or a stand-in for them."""
 
     def ask(self, question: Question) -> int:
-        """Put a question; ends Answered, or Failed if no answer can come.
+        """Ask a question; ends Answered, or Failed if no answer can come.
 
-        An answer that says stop stops the mission: `Inbox.end` sees to that.
+        An answer that says stop ends the mission; `Inbox.end` detects it.
         """
         ...
 
@@ -29,70 +29,70 @@ class User(Protocol):
 
 
 class Interpreter(Protocol):
-    """Reads what a person says."""
+    """Parses what a person says."""
 
     def read(self, words: str) -> Said:
-        """What the words mean, as far as they can be read."""
+        """Parse the words; `Unread` if they cannot be parsed."""
         ...
 
     def commands(self, words: str, spoken: Spoken = NOTHING, *, holds: bool = False) -> Commands:
-        """The tasks in the words; none if there are none that can be done.
+        """The tasks in the words; empty if there are none that can be done.
 
         Args:
-            words: what was said.
-            spoken: of what was spoken before: "it", "there" and "another" stand for that.
+            words: what the person said.
+            spoken: what was spoken of before, to resolve "it", "there" and "another".
             holds: whether the hand holds something.
         """
         ...
 
     def command(self, words: str) -> Command | None:
-        """The first of the tasks in the words, or None if there are none."""
+        """The first task in the words; None if there is none."""
         ...
 
     def remark(self, words: str, spoken: Spoken = NOTHING) -> str:
-        """What to say of words that were read and are no command to carry out; empty otherwise.
+        """The reply to words that were parsed and are not a command to carry out; empty otherwise.
 
-        Nobody else may make a command of them then: they may say what is not to be done.
+        A language model must not read a command into such words: they may say what not to do.
         """
         ...
 
     def denial(self, words: str) -> str:
-        """A word among them that denies, if it is not known what; empty if there is none."""
+        """A negating word whose scope is unclear; empty if there is none."""
         ...
 
     def not_understood(self, words: str) -> str:
-        """Why nobody could read the words, as a clause: they are of another language, for one."""
+        """Why the words could not be parsed, as a clause: for example, another language."""
         ...
 
     def passed_over(self, words: str, commands: Sequence[Command]) -> tuple[str, ...]:
-        """Numbers and conditions in words that somebody else has read, and none of the commands."""
+        """Numbers and conditions in the words that the commands, read by a model, leave out."""
         ...
 
     def without_slips(self, words: str) -> Commands:
-        """The tasks that the words are with the word for the deed spelled right; none if none."""
+        """The tasks in the words once a misspelt verb is corrected; empty if there are none."""
         ...
 
     def talk(self, words: str, things: Sequence[str] = ()) -> str:
-        """The answer to small talk, or to who asks for help; empty if it is neither.
+        """The answer to small talk or to a request for help; empty if the words are neither.
 
         Args:
-            words: what was said.
-            things: names of things of this home, for examples.
+            words: what the person said.
+            things: names of things in this home, to use as examples.
         """
         ...
 
     def after_yes(self, answer: str) -> Said:
-        """What is said behind a yes: "yes, and the pear"; `Unread` if it does not begin so."""
+        """What follows a yes: "yes, and the pear"; `Unread` if the answer begins otherwise."""
         ...
 
     def only(self, words: str) -> bool:
-        """Whether it says that nothing else is meant: "only the mug", "no, just the pear"."""
+        """Whether the words exclude everything else: "only the mug", "no, just the pear"."""
         ...
 
     def declines(self, answer: str) -> bool:
-        """Whether an answer says that the person does not know or will not say."""
+        """Whether an answer says that the person does not know, or will not say."""
         ...
 
     def agrees(self, answer: str) -> bool | None:
-        """Whether an answer says yes or no; None if it says neither."""
+        """True if an answer says yes, False if it says no, None if neither."""
         ...

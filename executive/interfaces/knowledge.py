@@ -1,4 +1,4 @@
-"""What the robot knows: of the home, of what it saw, and from others."""
+"""Sources of knowledge: the ontology, the robot's memory, and sources of others."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Protocol
@@ -8,166 +8,167 @@ from executive.types.home import Called, OtherColor, Place
 
 
 class Knowledge(Protocol):
-    """The ontology: which things there are, what they are called, where they usually are."""
+    """The ontology: the known things, their names, and where they usually are."""
 
     def places(self) -> tuple[Place, ...]:
-        """Every piece of furniture of the home, in the home file's order."""
+        """All furniture of the home, in the home file's order."""
         ...
 
     def has_place(self, name: str) -> bool:
-        """Whether a piece of furniture of this name is in the home."""
+        """Whether the home has a piece of furniture with this name."""
         ...
 
     def called(self, name: str) -> Called | None:
-        """How one speaks of an object, a class or a piece of furniture; None if it is unknown."""
+        """What an object, a class or a piece of furniture is called; None if it is unknown."""
         ...
 
     def objects_named(self, words: str) -> tuple[str, ...]:
-        """The objects that the words may mean: none, one, or several ("fruit", "the red one")."""
+        """All objects that the words may mean: none, one, or several ("fruit", "the red one")."""
         ...
 
     def other_color(self, words: str) -> OtherColor | None:
-        """What the words would mean if they did not say the colour: "blue mug", and it is red."""
+        """What the words mean without their colour: for "blue mug", the mug that is red."""
         ...
 
     def objects_for(self, purpose: str) -> tuple[str, ...]:
-        """The objects that are for this: "to drink from", "clean the bathroom with", "nails"."""
+        """The objects for this purpose: "to drink from", "clean the bathroom with", "nails"."""
         ...
 
     def colors(self, name: str) -> tuple[str, ...]:
-        """The colours of an object, the chief one first, as they are said."""
+        """The names of an object's colours, the main one first."""
         ...
 
     def uses(self, name: str) -> tuple[str, ...]:
-        """What an object is for: "to drink from", "for tea"."""
+        """The purposes of an object: "to drink from", "for tea"."""
         ...
 
     def nearest_names(self, words: str) -> tuple[str, ...]:
-        """Known names that look most like the words, best first (at most 3)."""
+        """The known names most similar to the words, best first (at most 3)."""
         ...
 
     def near_name(self, words: str) -> str | None:
-        """The one known name that the words are most likely a slip of, if it is clear."""
+        """The known name that the words most likely misspell; None if that is unclear."""
         ...
 
     def names_in(self, words: str) -> tuple[str, ...]:
-        """The names of objects and classes that a text has in it, in their order."""
+        """The names of objects and classes that occur in a text, in order."""
         ...
 
     def preferred(self, names: Sequence[str]) -> tuple[str, ...]:
-        """Those of the objects that the person at home prefers; none if nobody knows who it is."""
+        """The objects among `names` that the resident prefers; empty if the resident is unknown."""
         ...
 
     def usual_places(self, name: str) -> tuple[str, ...]:
-        """Default locations of the object or its nearest class, as far as this home has them."""
+        """Default locations of the object, or of its nearest class, that exist in this home."""
         ...
 
     def likely_places(self, name: str) -> Mapping[str, float]:
-        """The share of its default locations that each place of this home stands for.
+        """The share of the object's default locations for each place of this home.
 
-        By its name, as far as what recorded them means this home, and else by its kind. In all at
-        most 1: less, if this home has nothing of the kind of some of them.
+        A default location that was recorded for this home matches the place of that name; any
+        other matches the places of its kind. The sum is at most 1: less if this home has no place
+        for some of them.
         """
         ...
 
     def places_named(self, words: str) -> tuple[str, ...]:
-        """Furniture that the words name, in their order; a room stands for its furniture."""
+        """The furniture that the words name, in order; a room counts as all its furniture."""
         ...
 
     def is_place(self, words: str) -> bool:
-        """Whether they name furniture or rooms, and nothing else: not "Anna in the kitchen"."""
+        """Whether the words name only furniture or rooms: not so for "Anna in the kitchen"."""
         ...
 
 
 class Facts(Protocol):
-    """What was seen, said and done so far, in this mission and before it. Never raises."""
+    """The memory: what was seen, said and done in this mission and before. Never raises."""
 
     def saw(self, names: Iterable[str], place: str) -> None:
-        """These objects were seen there."""
+        """Note that these objects were seen at the place."""
         ...
 
     def missed(self, name: str, place: str) -> None:
-        """It was looked for there, and is not there."""
+        """Note that the object was looked for at the place and is not there."""
         ...
 
     def heard(self, name: str, places: Iterable[str]) -> None:
-        """The person said that it is at one of these places, the likeliest first."""
+        """Note that the person said it is at one of these places, the likeliest first."""
         ...
 
     def heard_not(self, name: str, places: Iterable[str]) -> None:
-        """The person said that it is at none of these places."""
+        """Note that the person said it is at none of these places."""
         ...
 
     def took(self, name: str, place: str) -> None:
-        """The robot has it, from there."""
+        """Note that the robot took the object from the place."""
         ...
 
     def put(self, name: str, place: str) -> None:
-        """The robot has put it down there."""
+        """Note that the robot put the object down at the place."""
         ...
 
     def looked(self, place: str) -> None:
-        """All of the place was looked at: what was not seen there is not there."""
+        """Note that all of the place was looked at: objects not seen there are not there."""
         ...
 
     def places_of(self, name: str) -> tuple[str, ...]:
-        """Where it was seen or said to be, freshest first, as far as no later look contradicts."""
+        """Where it was seen or said to be, latest first, except where a later look refutes it."""
         ...
 
     def places_denied(self, name: str) -> tuple[str, ...]:
-        """Where the person said that it is not, until it is seen, or said to be there."""
+        """Where the person said it is not, unless it was seen or said to be there since."""
         ...
 
     def beliefs(self) -> Mapping[str, Sequence[str]]:
-        """Each object that is believed to be anywhere, and where: what a recording keeps."""
+        """Each object with a believed place, and its places; recordings keep this."""
         ...
 
     def denials(self) -> Mapping[str, Sequence[str]]:
-        """Each object that the person said is not somewhere, and where: a recording keeps it."""
+        """Each object with denied places, and these places; recordings keep this."""
         ...
 
     def origins(self) -> Mapping[str, Sequence[str]]:
-        """Each object that the robot took, and from where, the last time first."""
+        """Each object that the robot took, and from where, the latest first."""
         ...
 
 
 class Experience(Protocol):
-    """What the robot has learned of where things are: how long a sighting is worth, and habits."""
+    """What the robot has learned of where things are: how long sightings stay valid, and habits."""
 
     def learn(self) -> None:
-        """Learn from what was seen since the last time; called before a mission, not in it."""
+        """Learn from what was seen since the last call; called before a mission, never in one."""
         ...
 
     def recalled(self, name: str) -> Sequence[Statement]:
-        """What memory and habits say of where a thing is now; answers within milliseconds.
+        """What memory and habits say about where a thing is now; must return within milliseconds.
 
-        Nothing if it was never seen. The most trusted first; the part of each is of what those
-        before it have left.
+        Empty if it was never seen. The most trusted statement comes first; the share of each is a
+        share of the probability that those before it leave.
         """
         ...
 
 
 class PlaceSource(Protocol):
-    """Something that knows where things are: a memory, a calendar, a list on the refrigerator.
+    """A further source of where things are: a memory, a calendar, a list on the refrigerator.
 
-    It is asked at the start of a search, before the ontology and the language model, and on the
-    ticking thread, where nothing is heard meanwhile, not even a stop: `places_of` has to answer
-    within milliseconds. What is slow (a network, a large file) is fetched beforehand.
+    It is asked at the start of a search, before the ontology and the language model. `places_of`
+    runs on the ticking thread and blocks it, so that even a stop is not heard meanwhile: it must
+    return within milliseconds. Fetch slow data (a network, a large file) beforehand.
     """
 
     @property
     def name(self) -> str:
-        """Who says so, in a word: `calendar`. It stands in logs, outcomes and the tree.
+        """Name of the source in logs, outcomes and the tree, one word: `calendar`.
 
-        No two sources have the same, and none is called like a `Source`, `person` or `eyes`.
+        It must be unique, and differ from the values of `Source`, from `person` and from `eyes`.
         """
         ...
 
     @property
     def says(self) -> str:
-        """How the person is told who says so, as a clause: "your calendar says so"."""
+        """How to name the source to the person, as a clause: "your calendar says so"."""
         ...
 
     def places_of(self, name: str) -> tuple[str, ...]:
-        """Where the object may be, the likeliest first; only places of the home are visited."""
+        """Where the object may be, likeliest first; the robot visits only places of the home."""
         ...

@@ -1,4 +1,4 @@
-"""The language model, and who puts questions to it."""
+"""The language model, and the parts that write its prompts and read its replies."""
 
 from dataclasses import dataclass
 from typing import Protocol
@@ -10,11 +10,11 @@ from executive.types.results import Scored
 
 
 class LanguageModel(Protocol):
-    """A model that writes, and may be able to score."""
+    """A model that writes text, and may be able to score options."""
 
     @property
     def name(self) -> str:
-        """What to call it in logs."""
+        """Name for the logs."""
         ...
 
     @property
@@ -28,17 +28,17 @@ class LanguageModel(Protocol):
         ...
 
     def chat(self, request: ChatRequest) -> int:
-        """Write a reply; ends Replied, or Failed."""
+        """Start to write a reply; ends Replied, or Failed."""
         ...
 
     def rank(self, request: RankRequest) -> int:
-        """Score the options; ends Scored, or Failed."""
+        """Start to score the options; ends Scored, or Failed."""
         ...
 
     def prepare(self, request: ChatRequest | RankRequest) -> None:
-        """Work out, while nothing is asked, what others share with this request.
+        """Compute in advance, while the model is idle, what later requests share with this one.
 
-        It is no request itself: nothing ends, and the next one takes over what is ready.
+        This is not a request and has no result. The next request uses what is ready by then.
         """
         ...
 
@@ -47,7 +47,7 @@ class LanguageModel(Protocol):
         ...
 
     def count_tokens(self, text: str) -> int:
-        """How many tokens the text takes, by the model's own tokenizer."""
+        """Length of a text in tokens, by the model's own tokenizer."""
         ...
 
     def close(self) -> None:
@@ -56,79 +56,79 @@ class LanguageModel(Protocol):
 
 
 class PlaceLister(Protocol):
-    """Has a language model list places, and lets only real places through.
+    """Writes prompts that ask a language model for places, and accepts only places that exist.
 
-    The paper's prompting, output parser, memory and consistency verification. `among` holds the
-    default locations if the ontology has several, else it is empty: every place is allowed.
+    This is the paper's prompting, output parser, memory and consistency verification. `among` is
+    the default locations if the ontology has several; if it is empty, every place is allowed.
     """
 
     def inquiry(self, name: str, among: tuple[str, ...]) -> ChatRequest:
-        """`general_pos`, or `multiple_pos` when `among` is given."""
+        """Prompt `general_pos`, or `multiple_pos` if `among` is given: where is the thing?"""
         ...
 
     def furniture(self, name: str, room: str, among: tuple[str, ...]) -> ChatRequest:
-        """`furniture`: which furniture of this room?"""
+        """Prompt `furniture`: which furniture of this room?"""
         ...
 
     def again(self, name: str, among: tuple[str, ...]) -> ChatRequest:
-        """`again`: the reply named no real place; choose from the list."""
+        """Prompt `again`: the reply named no existing place; choose from the list."""
         ...
 
     def summarize(self, name: str, reply: str) -> ChatRequest:
-        """`summarize`: the reply was not in the output format."""
+        """Prompt `summarize`: the reply was not in the output format; summarise it."""
         ...
 
     def remember(self, request: ChatRequest, reply: str) -> None:
-        """Keep the exchange for the next prompts (if this system has a memory)."""
+        """Keep the exchange for later prompts, if the system has a memory."""
         ...
 
     def read(self, reply: str) -> tuple[str, ...] | None:
-        """The names in a reply, or None if it is not in the output format."""
+        """Parse the names in a reply; None if it is not in the output format."""
         ...
 
     def verify(self, names: tuple[str, ...], among: tuple[str, ...]) -> Verdict:
-        """Hold names against the ontology (the existence check)."""
+        """Look the names up in the ontology (the paper's existence check)."""
         ...
 
 
 class PlaceRanker(Protocol):
-    """Has a language model score the known places: it cannot invent any."""
+    """Has a language model score the known places, so that it cannot invent any."""
 
     def ranking(self, name: str, among: tuple[str, ...]) -> RankRequest:
-        """Score every place that is allowed; all are, if `among` is empty."""
+        """The request to score the places in `among`; all places if it is empty."""
         ...
 
     def ranked(self, scored: Scored) -> tuple[Candidate, ...]:
-        """Places with probabilities (they sum to 1), likeliest first."""
+        """The places with probabilities (sum 1), the likeliest first."""
         ...
 
 
 class CommandReader(Protocol):
-    """Has a language model read what the grammar of commands cannot."""
+    """Has a language model read commands that the grammar cannot parse."""
 
     def ranking(self, words: str) -> RankRequest:
-        """Score what the words may ask the robot to do."""
+        """The request to score which kind of command the words are."""
         ...
 
     def ranked(self, scored: Scored) -> CommandKind:
-        """The likeliest of these kinds of command."""
+        """The likeliest kind of command."""
         ...
 
     def inquiry(self, words: str) -> ChatRequest:
-        """`command`: what do the words ask for?"""
+        """Prompt `command`: what do the words ask for?"""
         ...
 
     def read(self, reply: str) -> str:
-        """What the reply asks for, as a plain sentence for the grammar.
+        """The command in the reply, as a plain sentence for the grammar.
 
-        It is empty if the reply has not the format, or names a thing or a place that is not there.
+        Empty if the reply is not in the format, or names an unknown thing or place.
         """
         ...
 
 
 @dataclass(frozen=True, slots=True)
 class Advice:
-    """Who puts questions to the language model, and takes from its answers only what exists."""
+    """The parts that ask the language model, and accept from its replies only what exists."""
 
     lister: PlaceLister
     ranker: PlaceRanker

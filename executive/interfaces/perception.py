@@ -1,4 +1,4 @@
-"""The robot's eyes."""
+"""Camera and detector."""
 
 from typing import Protocol
 
@@ -9,25 +9,25 @@ class Camera(Protocol):
     """A colour and depth camera."""
 
     def capture(self) -> Frame:
-        """The picture of this moment; takes some milliseconds."""
+        """Take a picture now; blocks for some milliseconds."""
         ...
 
 
 class Detector(Protocol):
-    """Recognises things in a picture."""
+    """Recognises objects in a picture."""
 
     def detect(self, frame: Frame) -> tuple[Detection, ...]:
-        """All known things in the picture, surest first."""
+        """All known objects in the picture, the highest confidence first."""
         ...
 
 
 class Perception(Protocol):
-    """A camera and a detector together: takes a picture and says what is in it, and where."""
+    """A camera and a detector together: takes a picture, and recognises and locates objects."""
 
     def see(self) -> int:
-        """Take a picture and recognise; ends Saw, or Failed."""
+        """Start to take a picture and recognise objects in it; ends Saw, or Failed."""
         ...
 
     def cancel(self, request: int) -> None:
-        """Forget the picture."""
+        """Cancel the request; its result is not delivered."""
         ...

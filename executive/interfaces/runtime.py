@@ -1,4 +1,4 @@
-"""What a mission runs on: its tree, its time and its log."""
+"""The runtime of a mission: tree, clock and recorder."""
 
 from typing import Protocol
 
@@ -9,11 +9,11 @@ class Tree(Protocol):
     """The behaviour tree of one mission."""
 
     def shape(self) -> TreeShape:
-        """All behaviours, parents before children."""
+        """The structure of the tree: all behaviours, parents before children."""
         ...
 
     def tick(self) -> None:
-        """Let the tree decide once. It raises what a behaviour raises."""
+        """Tick the tree once. Exceptions of behaviours are passed on."""
         ...
 
     @property
@@ -23,15 +23,15 @@ class Tree(Protocol):
 
     @property
     def tip(self) -> str:
-        """Path of the behaviour that decided the last tick."""
+        """Path of the behaviour that decided the result of the last tick."""
         ...
 
     def states(self) -> tuple[NodeState, ...]:
-        """Every behaviour after the last tick."""
+        """The state of every behaviour after the last tick."""
         ...
 
     def stop(self) -> None:
-        """Interrupt whatever is running, so that it cancels what it started."""
+        """Interrupt all running behaviours, so that they cancel their requests."""
         ...
 
 
@@ -39,21 +39,21 @@ class Clock(Protocol):
     """Mission time (seconds since the mission began)."""
 
     def now(self) -> float:
-        """The time; it passes within `wait` only, so that a tick is replayed at its own time."""
+        """The time; it advances only inside `wait`, so that a replayed tick has the same time."""
         ...
 
     def restart(self) -> None:
-        """Call this moment 0."""
+        """Set mission time to 0 now."""
         ...
 
     def wait(self, deadline: float | None) -> None:
-        """Let time pass until an event is in the inbox or the deadline is reached."""
+        """Block until an event is in the inbox or the deadline (mission time, s) is reached."""
         ...
 
 
 class Recorder(Protocol):
-    """Keeps what happened. Never raises: a sink that fails is dropped and the mission goes on."""
+    """Writes the log. Never raises: a sink that fails is dropped and the mission goes on."""
 
     def record(self, record: Record) -> None:
-        """Stamp the record with the time and pass it on; called from the ticking thread only."""
+        """Add the timestamp and write the record; called only from the ticking thread."""
         ...

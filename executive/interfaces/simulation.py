@@ -1,18 +1,18 @@
-"""A simulated world around the robot."""
+"""The simulated world."""
 
 from typing import Protocol
 
 
 class World(Protocol):
-    """A simulated world whose time the clock drives."""
+    """A simulated world that the clock advances."""
 
     @property
     def busy(self) -> bool:
-        """Whether anything moves or is due; if not, time may pass without computing it."""
+        """Whether anything moves or is scheduled; if not, the clock need not simulate the time."""
         ...
 
     def advance(self, at_most: float) -> float:
-        """Let at most so many seconds pass, less if something ends earlier; return how many."""
+        """Simulate up to `at_most` seconds; return how many (fewer if a request ends earlier)."""
         ...
 
     def close(self) -> None:
@@ -21,20 +21,20 @@ class World(Protocol):
 
 
 class SimulatedHome(World, Protocol):
-    """A simulated world that can be drawn, and that knows the truth about its things."""
+    """A simulated world that can be recorded, and that has the ground truth about its things."""
 
     def describe(self) -> None:
-        """Record the whole scene and where everything is; called once a mission."""
+        """Record the whole scene and the poses of everything; called once per mission."""
         ...
 
     def resting_place(self, name: str) -> str | None:
-        """The furniture that an object rests on, by the simulator's truth; None if on none.
+        """Ground truth: the furniture that an object rests on; None if on none.
 
-        For the simulated person and for tests: the robot has no access to it.
+        Only for the simulated person and for tests; the robot must not use it.
         """
         ...
 
     @property
     def held(self) -> str | None:
-        """The object that is in the robot's hand, by the simulator's truth; None for none."""
+        """Ground truth: the object in the robot's hand; None if it is empty."""
         ...

@@ -1,4 +1,4 @@
-"""What a mission knows so far, in parts: what behaviours read and write, and the log keeps."""
+"""The state of a mission, in parts: behaviours read and write it, and the log keeps it."""
 
 from executive.situation.agenda import Agenda, Task, Whole
 from executive.situation.before import FIRST, Before

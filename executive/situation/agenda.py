@@ -1,4 +1,4 @@
-"""What there is to do, one task after the other, and what came of those that have ended."""
+"""The tasks of a mission: those still to do, and the outcomes of those that have ended."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field, replace
@@ -13,10 +13,11 @@ from executive.types.outcome import MissionStatus, TaskOutcome
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """One thing to do.
+    """One task still to do.
 
-    Those that follow each other in one `group` may be done in any order. What is a part of another
-    task has its `depth`: 1, or more if that is a part itself.
+    Attributes:
+        group: consecutive tasks with the same group may be done in any order.
+        depth: 0 for a task of its own; 1 for a part of a task, 2 for a part of a part, and so on.
     """
 
     command: Command
@@ -26,15 +27,15 @@ class Task:
 
 @dataclass
 class Whole:
-    """A task that is done in parts: those that are left are on the agenda."""
+    """A task that was split into parts; the parts still to do are on the agenda."""
 
     command: Command = field(metadata=logged_as(plain=command_as_logged))
     wanted: int
-    """How many of the parts are enough."""
+    """How many of the parts have to be done."""
     unseen: str = ""
-    """Why there may be more parts than are known, as a clause; empty if there are not."""
+    """Why there may be unknown parts, as a clause; empty if all are known."""
     parts: list[TaskOutcome] = field(default_factory=list)
-    """What came of those that have ended."""
+    """The outcomes of the parts that have ended."""
 
     @property
     def done(self) -> list[TaskOutcome]:
@@ -56,63 +57,64 @@ def _parts(wholes: list[Whole]) -> list[list[dict[str, Any]]]:
 
 @dataclass
 class Agenda:
-    """The tasks of a mission; the one at hand is `Request.command`, and in none of these lists.
+    """The tasks of a mission, except the current one, which is `Request.command`.
 
-    A wish may be added at any time. `instead` replaces the task at hand, and what is `taken_back`
-    is not done: the tree sees it, interrupts what it does, and goes on with the next.
+    Tasks may be added at any time. If `instead` or `taken_back` is set, the tree interrupts the
+    current task and goes on with the next.
     """
 
     tasks: list[Task] = field(default_factory=list, metadata=logged_as(plain=_tasks))
-    """Those to be done yet, the next first."""
+    """Tasks still to do, the next first."""
     ended: list[TaskOutcome] = field(default_factory=list)
-    """What came of the others, in the order in which they ended."""
+    """The outcomes of the tasks that have ended, in order."""
     wholes: list[Whole] = field(
         default_factory=list, metadata=logged_as(plain=_wholes, beside={"parts": _parts})
     )
-    """The task that is being done in parts; behind it a part of it that is done so, too."""
+    """The task that is being done in parts; after it, a part of it that was itself split."""
     instead: Command | None = field(default=None, metadata=logged_as(plain=command_as_logged))
-    """What is to be done at once in place of the task at hand; None for nothing."""
+    """The command to do at once in place of the current task; None if there is none."""
     taken_back: bool = False
-    """Whether the task at hand is not to be done after all."""
+    """Whether the person took the current task back."""
     unsettled: bool = False
-    """Whether the robot was handling something when the task was given up."""
+    """Whether the robot was grasping or putting down when the task was abandoned."""
     _groups: int = field(default=0, metadata=NOT_LOGGED)
 
     @property
     def whole_tasks(self) -> list[Task]:
-        """Those to be done yet that are no part of another, the next first."""
+        """Tasks still to do that are not parts of another task, the next first."""
         return [task for task in self.tasks if not task.depth]
 
     def add(self, commands: Iterable[tuple[Command, ...]]) -> None:
-        """Do these, too, after all others."""
+        """Append tasks, in groups."""
         self.tasks += self._in_groups(commands, 0)
 
     def split(
         self, command: Command, parts: Sequence[Command], wanted: int, unseen: str = ""
     ) -> None:
-        """Do the task at hand in these parts, in any order, until so many of them are done.
+        """Split the current task into parts: do them in any order, until `wanted` of them are done.
 
-        It is not all done if more may be meant than these: `unseen` says why that is not known.
+        `unseen` says why there may be more parts than these; if it is not empty, the task does not
+        count as all done.
         """
         self.wholes.append(Whole(command, wanted, unseen))
         self.go_on_with((tuple(parts),))
 
     def go_on_with(self, parts: Commands) -> None:
-        """Do these next, as parts of the task that is done so."""
+        """Insert these as the next parts of the innermost split task."""
         self.tasks[:0] = self._in_groups(parts, len(self.wholes))
 
     def drop_parts(self) -> None:
-        """Leave the parts that were not begun."""
+        """Remove the parts of the innermost split task that were not begun."""
         self.tasks = [task for task in self.tasks if task.depth < len(self.wholes)]
 
     @property
     def has_parts(self) -> bool:
-        """Whether there are any such."""
+        """Whether parts of the innermost split task are still to do."""
         return any(task.depth == len(self.wholes) for task in self.tasks)
 
     @property
     def goes_on(self) -> bool:
-        """Whether there is more to do for sure, once the task at hand is done."""
+        """Whether there certainly is more to do once the current task is done."""
         if not self.wholes or any(task.depth < len(self.wholes) for task in self.tasks):
             return bool(self.tasks)
         whole = self.wholes[-1]
@@ -120,25 +122,25 @@ class Agenda:
         return bool(found_first) or (self.has_parts and whole.wanted - len(whole.done) > 1)
 
     def replace(self, first: Command, others: Sequence[Command] = ()) -> None:
-        """Do these at once in place of the task at hand, in this order."""
+        """Replace the current task by these, in this order."""
         self._leave_parts()
         self.instead = first
         self.tasks[:0] = self._in_groups([(command,) for command in others], 0)
 
     def take_back(self) -> None:
-        """Do not do the task at hand after all."""
+        """Take the current task back, with all its parts."""
         self._leave_parts()
         self.taken_back = True
 
     def limit(self, number: int) -> None:
-        """Do so many parts of the task that is done so; with these done, not the one at hand."""
+        """Set how many parts of the split task to do; drop the current one if these are done."""
         whole = self.wholes[-1]
         whole.wanted, whole.unseen = number, ""
         whole.command = replace(whole.command, number=number)
         self.taken_back = len(whole.done) >= number
 
     def strike_out(self, task: Task) -> None:
-        """Do not do a task that was not begun; if it is a part of one, the others are done."""
+        """Remove a task that was not begun; if it is a part, the other parts stay."""
         self.tasks.remove(task)
         command = task.command
         came_of_it = TaskOutcome(
@@ -147,33 +149,33 @@ class Agenda:
         (self.wholes[task.depth - 1].parts if task.depth else self.ended).append(came_of_it)
 
     def change(self, task: Task, command: Command) -> None:
-        """Have a task that was not begun ask for something else."""
+        """Change the command of a task that was not begun."""
         self.tasks[self.tasks.index(task)] = replace(task, command=command)
 
     def whole_of(self, at_hand: Command | None) -> Command | None:
-        """What the task at hand is a part of, or itself."""
+        """The command of the whole that the current task is a part of, or of the task itself."""
         return self.wholes[0].command if self.wholes else at_hand
 
     @property
     def interrupts(self) -> bool:
-        """Whether the task at hand is to be given up."""
+        """Whether the current task has to be abandoned."""
         return self.taken_back or self.instead is not None
 
     def next_ones(self) -> tuple[Task, ...]:
-        """Those that may be done next."""
+        """The tasks of the first group: any of them may be next."""
         return tuple(task for task in self.tasks if task.group == self.tasks[0].group)
 
     def take(self, task: Task) -> Command:
-        """Strike out a task that is begun; what it asks for."""
+        """Remove a task to begin it; return its command."""
         self.tasks.remove(task)
         return task.command
 
     def end(self, outcome: TaskOutcome) -> None:
-        """Keep what came of a task, or of a part of one."""
+        """Keep the outcome of a task, or of a part."""
         (self.wholes[-1].parts if self.wholes else self.ended).append(outcome)
 
     def visited(self) -> Iterator[str]:
-        """Where the robot got to in the tasks that have ended."""
+        """The places that the robot visited in the tasks and parts that have ended."""
         for task in (*self.ended, *(part for whole in self.wholes for part in whole.parts)):
             yield from task.visited
 

@@ -1,4 +1,4 @@
-"""What earlier missions have left: how things stand when the next one begins."""
+"""The state that one mission leaves to the next."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,18 +11,18 @@ from executive.types.outcome import Outcome
 
 @dataclass(frozen=True, slots=True)
 class Before:
-    """What one mission leaves to the next.
+    """The state that one mission leaves to the next.
 
-    No recording keeps `stands` and `last`: questions between two missions are answered by them,
-    but no mission decides anything by them.
+    Recordings do not keep `stands` and `last`: they only serve to answer questions between two
+    missions, and no mission decides by them.
 
     Attributes:
-        in_hand: the thing that the robot holds; None: nothing.
-        restless: whether the robot did not do what it was told last: it may not stand still.
+        in_hand: the thing that the robot holds; None if it holds nothing.
+        restless: whether the robot did not do what it was last told, so that it may still move.
         spoken: what was spoken of.
-        at: the place that the robot has driven to last.
-        stands: where it is, at rest; empty if it was stopped on its way.
-        last: what came of the last mission; None if there was none.
+        at: the place that the robot last drove to.
+        stands: the place where it stands; empty if it was stopped on its way.
+        last: the outcome of the last mission; None if there was none.
     """
 
     in_hand: str | None = None
@@ -33,7 +33,7 @@ class Before:
     last: Outcome | None = None
 
     def to_metadata(self) -> dict[str, str]:
-        """As a recording keeps it."""
+        """The state as the metadata of a recording keeps it."""
         return {
             "in_hand": self.in_hand or "",
             "restless": str(self.restless),
@@ -43,10 +43,10 @@ class Before:
 
     @classmethod
     def from_metadata(cls, metadata: Mapping[str, str]) -> Self:
-        """As a recording kept it; older ones do not tell all of it.
+        """The state from the metadata of a recording; missing values, in older ones, get defaults.
 
         Raises:
-            ValueError: if what was spoken of is something else.
+            ValueError: if `spoken` is malformed.
         """
         return cls(
             in_hand=metadata.get("in_hand") or None,
@@ -57,4 +57,4 @@ class Before:
 
 
 FIRST = Before()
-"""How things stand before the first mission."""
+"""The state before the first mission."""

@@ -1,4 +1,4 @@
-"""What is believed of where the thing is, and what follows from it: to look on, or to ask."""
+"""The state of a search by belief and plan: where the thing may be, and what to do next."""
 
 from dataclasses import dataclass, field
 from typing import Any
@@ -9,11 +9,11 @@ from executive.situation.looks import Looks
 from executive.situation.snapshot import NOT_LOGGED, logged_as
 
 MOST_LOGGED = 20
-"""So many places of a belief stand in the log, the likeliest."""
+"""The log keeps this many places of a belief, the likeliest."""
 
 
 def _plain(belief: Belief) -> dict[str, Any]:
-    """A belief as JSON can keep it."""
+    """A belief as JSON for the log."""
     return {
         "places": [
             {
@@ -28,19 +28,19 @@ def _plain(belief: Belief) -> dict[str, Any]:
 
 
 def _plan(plan: Plan | None) -> dict[str, Any] | None:
-    """The order, and the moment to ask."""
+    """A plan as JSON for the log."""
     return {"order": list(plan.order), "ask_after": plan.ask_after} if plan else None
 
 
 @dataclass(frozen=True, slots=True)
 class Leg:
-    """A drive between two places that is, or was, under way.
+    """A drive between two places that is going on, or was broken off.
 
     Attributes:
-        start: where it began.
-        place: where it leads.
-        since_s: when it began (mission time).
-        driven_s: how long it went on, if it was broken off; None while it goes on.
+        start: the place where it began.
+        place: its goal.
+        since_s: when it began (mission time, s).
+        driven_s: how long it lasted (s), if it was broken off; None while it goes on.
     """
 
     start: str
@@ -51,23 +51,22 @@ class Leg:
 
 @dataclass
 class Whereabouts:
-    """One search by a belief and a plan.
+    """The state of one search by a belief and a plan.
 
     Attributes:
-        belief: where the thing may be, as the sources and the looks so far have it.
-        plan: what is best to do by that; None before the first.
-        away: how long the way from here and the look take of each place that was planned with (s).
-        statements: what the sources say, as it was heard, the most trusted first.
-        named: places that the person, or the memory, named after they were looked at: worth
-            another look.
+        belief: where the thing may be, by the statements and the looks so far.
+        plan: the best plan for this belief; None before the first.
+        away: seconds to drive to each planned place from here and look there.
+        statements: what the sources said, the most trusted first.
+        named: places that the person, or the memory, named after a look there: worth another.
         consulted: whether the language model was asked in this search.
-        thinks: whether it is still thinking about that.
-        news: whether somebody said something since the plan was made.
-        is_fresh: whether the plan was made on the way, and has still to be taken up.
-        answered: where the person said that it is, when asked in this search.
-        announced: the places that the person was told of, those that are still to come.
-        is_told: whether the person was told of the place that is next.
-        leg: the drive by which the robot is between two places; None if it is at one.
+        thinks: whether the language model is still working on that.
+        news: whether a source said something since the plan was made.
+        is_fresh: whether the plan was made during a drive and is not yet followed.
+        answered: the places that the person gave as their answer in this search.
+        announced: the places that the person was told the robot goes to, those still to come.
+        is_told: whether the person was told of the next place.
+        leg: the drive on which the robot is between two places; None if it is at one.
         is_over: whether nothing is left to look at, and nobody to ask.
     """
 
@@ -87,23 +86,23 @@ class Whereabouts:
     is_over: bool = field(default=False, metadata=NOT_LOGGED)
 
     def begin(self) -> None:
-        """A new search: nothing is said yet."""
+        """Begin a new search, without statements."""
         self.statements, self.named, self.announced = (), set(), ()
         self.answered, self.consulted, self.is_over = (), False, False
         self.thinks = self.news = self.is_fresh = self.is_told = False
         self.leg = None
 
     def hear(self, statement: Statement, *, first: bool = False) -> None:
-        """Take in what a source says: after the others, or as that which counts first."""
+        """Add a statement as the least trusted one, or, if `first`, as the most trusted."""
         others, self.news = self.statements, True
         self.statements = (statement, *others) if first else (*others, statement)
 
     def may_look_at(self, place: str, looks: Looks) -> bool:
-        """Whether a look there is worth it: it was none yet, or it was named since."""
+        """Whether to look at a place: it was not tried yet, or was named again since."""
         seen = place in looks.visited or place in looks.unreached
         return place in self.named or not seen
 
     def is_hidden(self, looks: Looks) -> bool:
-        """Whether a place that the person answered with was not to be seen, and none is left."""
+        """Whether some place of the person's answer could not be seen, and none is left to try."""
         left = self.named.intersection(self.answered)
         return not left and any(map(looks.failed, self.answered))

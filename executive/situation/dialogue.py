@@ -1,4 +1,4 @@
-"""How it stands between the robot and the person."""
+"""The state of the dialogue between robot and person."""
 
 from dataclasses import dataclass, field
 from typing import Any
@@ -9,28 +9,28 @@ from executive.types.home import PERSON
 
 
 def _spoken(spoken: Spoken) -> dict[str, Any]:
-    """What words for what was spoken of stand for; what they may be is in the metadata."""
+    """What was spoken of, as JSON for the log; the candidates are in the recording's metadata."""
     return {"things": list(spoken.things), "called": spoken.called, "place": spoken.place}
 
 
 @dataclass
 class Dialogue:
-    """Whether the person is there to be asked, and how often they were."""
+    """Where the robot is relative to the person, and what was asked, heard and spoken of."""
 
     away: bool = False
     """Whether the robot has left the person."""
     at: str = field(default=PERSON, metadata=NOT_LOGGED)
-    """The place that the robot has driven to last, in this mission or before."""
+    """The place that the robot last drove to, in this mission or before."""
     stands: str | None = field(default=None, metadata=NOT_LOGGED)
-    """Where it came to in this mission; empty if it is on its way, None if it did not drive."""
+    """Where it arrived in this mission; empty while it drives, None if it has not driven."""
     heads_for: str = field(default="", metadata=NOT_LOGGED)
-    """The place that it last set out for in this mission, whether it came there or not."""
+    """The goal of its last drive in this mission, whether it arrived or not."""
     inquiries: int = 0
     no_help: str = ""
     """Why the person cannot or will not help, as a clause; empty if they may."""
     spoken: Spoken = field(default=NOTHING, metadata=logged_as(plain=_spoken))
     """What was spoken of before this mission: what "it" and "there" stand for."""
     heard: list[str] = field(default_factory=list)
-    """What the person has said unasked, and nobody has attended to yet, oldest first."""
+    """What the person said without being asked, and no behaviour has handled yet; oldest first."""
     news: list[str] = field(default_factory=list, metadata=NOT_LOGGED)
-    """What the robot's body has told, and nobody has told the person yet, oldest first."""
+    """Messages of the robot's body that the person was not told yet, oldest first."""

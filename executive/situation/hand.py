@@ -1,4 +1,4 @@
-"""What is in the robot's hand, and where it goes from there."""
+"""The state of the robot's hand: what it holds, and where that is put down."""
 
 from dataclasses import dataclass, field
 
@@ -8,34 +8,35 @@ from executive.types.home import SOMETHING
 
 @dataclass
 class Hand:
-    """What the hand holds, lost, and has put down."""
+    """What the hand holds, lost and put down."""
 
     in_hand: str | None = None
-    """The thing that the robot holds, from this mission or one before it."""
+    """The thing that the robot holds, since this mission or an earlier one; None if none."""
     felt: bool | None = None
-    """Whether the fingers felt a thing when they were asked last; None: they cannot tell."""
+    """Whether the fingers felt something when last asked; None if they cannot tell."""
     reached_for: str = ""
-    """The thing that the robot tried to pick up last."""
+    """The thing that the robot last tried to pick up."""
     lost: str = ""
-    """What happened to the thing that fell from the hand, as a clause; empty if it did not."""
+    """How the thing fell from the hand, as a clause; empty if it did not."""
     spot: str = ""
-    """Where the robot looks for what fell from its hand."""
+    """The place where the robot looks for the thing that fell."""
     surfaces: tuple[str, ...] = ()
-    """Where the person says that the thing in the hand may be put down."""
+    """The places where the thing in the hand may be put down, as the person says."""
     surface: str = ""
-    """Where the robot is going to put it down."""
+    """The place that the robot has chosen to put it down."""
     unplaced: dict[str, str] = field(default_factory=dict)
-    """Places where what is in the hand could not be put down, and why."""
+    """The places where the thing in the hand could not be put down, and why."""
     put_at: str = ""
-    """Where the robot has put down what it held; empty if it has not."""
+    """The place where the robot put down what it held; empty if it has not."""
 
     elsewhere: str = ""
-    """Where that is, if it was to go somewhere else; empty if it was not."""
+    """The same place, if the thing should have gone somewhere else; else empty."""
 
     def feel(self, holding: bool | None) -> None:
-        """What is in the hand is what the fingers feel; its name is that of what they reached for.
+        """Update `in_hand` from what the fingers feel (None: they cannot tell).
 
-        What was in it before stays in it as long as something does, or they cannot tell.
+        If they feel nothing, the hand is empty. If they feel something in a hand that was empty, it
+        is the thing that they reached for.
         """
         self.felt = holding
         if holding is False:
@@ -44,7 +45,7 @@ class Hand:
             self.in_hand = self.reached_for or SOMETHING
 
     def not_put_down(self, say: Wording) -> str:
-        """Where what is in the hand could not be put down, and why, as a clause; empty if so."""
+        """Where the held thing could not be put down, and why, as a clause; empty if nowhere."""
         (place, why), *others = self.unplaced.items() or [("", "")]
         if not others:
             return why

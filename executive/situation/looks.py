@@ -1,4 +1,4 @@
-"""What came of going to places to look for a thing: only what was seen is known."""
+"""The results of looking for a thing at places: which parts of which place were seen."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -12,13 +12,13 @@ T = TypeVar("T")
 
 @dataclass
 class Looks:
-    """The one account of a search: where the robot got to, what it saw there, and why it did not.
+    """The results of a search so far, place by place.
 
     Attributes:
-        visited: places that the robot got to, in this order.
-        unreached: places that it could not get to the last time, and why.
-        unseen: places of which it could not see every part the last time, and why.
-        missed: the place that it could not get to just now, while nobody was told so; else empty.
+        visited: places that the robot reached, in order.
+        unreached: places that it could not reach at the last try, and why.
+        unseen: places of which it could not see all parts at the last try, and why.
+        missed: the place that it just could not reach, until the person is told so; else empty.
     """
 
     visited: list[str] = field(default_factory=list)
@@ -26,59 +26,59 @@ class Looks:
     unseen: dict[str, str] = field(default_factory=dict)
     missed: str = field(default="", metadata=NOT_LOGGED)
     _parts: dict[str, int] = field(default_factory=dict, metadata=NOT_LOGGED)
-    """How many parts a place has, each of which takes a look of its own."""
+    """The number of parts of a place; each part needs a head pose of its own."""
     _without: dict[str, set[int]] = field(default_factory=dict, metadata=NOT_LOGGED)
-    """The parts of a place in which the thing surely was not, at the last look."""
+    """The parts of a place that were seen without the thing, at the last look."""
 
     def reached(self, place: str) -> None:
-        """The robot got there."""
+        """The robot reached the place."""
         self.visited.append(place)
         self.unreached.pop(place, None)
         self.missed = ""
 
     def not_reached(self, place: str, why: str) -> None:
-        """The robot could not get there."""
+        """The robot could not reach the place."""
         self.unreached[place] = why
         self.missed = place
 
     def begin(self, place: str, parts: int) -> None:
-        """A look over the whole place begins, of so many parts; the one before counts no more."""
+        """Begin to look over a place of this many parts, and forget the look before."""
         self._parts[place] = parts
         self._without[place] = set()
         self.unseen.pop(place, None)
 
     def without(self, place: str, part: int) -> None:
-        """This part was seen, and the thing is not there."""
+        """The thing is not in this part of the place."""
         self._without.setdefault(place, set()).add(part)
 
     def not_seen(self, place: str, why: str) -> None:
-        """A part could not be looked at."""
+        """A part of the place could not be looked at."""
         self.unseen[place] = why
 
     def all_without(self, place: str) -> bool:
-        """Whether every part of a place was seen, and the thing is in none of them."""
+        """Whether all parts of a place were seen without the thing."""
         return 0 < self._parts.get(place, 0) == len(self._without.get(place, ()))
 
     def failed(self, place: str) -> bool:
-        """Whether it was tried to look at a place, and is not known to be without the thing."""
+        """Whether the robot tried to look at a place, and the thing may still be there."""
         return place in self.unreached or (place in self.visited and not self.all_without(place))
 
     def all_but(self, place: str, part: int) -> bool:
-        """Whether every other part of a place was seen, and the thing is in none of them."""
+        """Whether all parts of a place but this one were seen without the thing."""
         without = self._without.get(place, set())
         return 0 < self._parts.get(place, 0) == len(without | {part})
 
     def share_seen(self, place: str) -> float:
-        """How much of a place was seen without the thing, from 0 to 1."""
+        """The share of a place that was seen without the thing, in [0, 1]."""
         parts = self._parts.get(place, 0)
         return len(self._without.get(place, ())) / parts if parts else 0.0
 
     def why_not(self, thing: str, place: str, say: Wording) -> str:
-        """Why it is not known whether the thing is at a place, as a clause."""
+        """Why it is unknown whether the thing is at a place, as a clause."""
         return _clause(self._failure(place), [place], thing, say)
 
     def clauses(self, thing: str, say: Wording) -> Iterator[str]:
-        """What the search came to: a clause for what was seen, and one for each failure."""
+        """The results as clauses: one for what was seen, and one for each kind of failure."""
         there = [p for p in dict.fromkeys(self.visited) if p not in self.unreached]
         if seen := [place for place in there if self.all_without(place)]:
             yield f"I did not find {say.the(thing)} {either(say.at_each(seen))}"
@@ -88,7 +88,7 @@ class Looks:
             yield _clause(failure, places, thing, say)
 
     def _failure(self, place: str) -> tuple[str, str]:
-        """What became of looking at a place, and why; both empty if that is not known."""
+        """What failed when looking at a place, and why; both empty if that is not known."""
         if why := self.unreached.get(place):
             return "could not get to", why
         if place not in self.unseen:
@@ -98,7 +98,7 @@ class Looks:
 
 
 def alike(places: Mapping[str, T]) -> dict[T, list[str]]:
-    """The places of which the same is to be told, together."""
+    """Group the places that have the same value."""
     together: dict[T, list[str]] = {}
     for place, what in places.items():
         together.setdefault(what, []).append(place)

@@ -1,4 +1,4 @@
-"""What use was made of the language model."""
+"""The use of the language model in a mission."""
 
 from dataclasses import dataclass, field
 
@@ -7,10 +7,10 @@ from executive.situation.snapshot import NOT_LOGGED, logged_as
 
 @dataclass
 class ModelUse:
-    """How often it was asked, how long it took, and whether it was of help."""
+    """How often the language model was asked, how long it took, and why it failed."""
 
     calls: int = field(default=0, metadata=logged_as("llm_calls"))
     thinking_time_s: float = field(default=0.0, metadata=NOT_LOGGED)
-    """Measured, and in the outcome."""
+    """Measured time; it is in the outcome."""
     failure: str = field(default="", metadata=logged_as("model_failure"))
-    """Why the language model was of no help, as a clause; empty if it was, or was not asked."""
+    """Why the language model did not help, as a clause; empty if it did, or was not asked."""

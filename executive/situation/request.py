@@ -23,7 +23,7 @@ def _less_plural(fields: list[tuple[str, Any]]) -> dict[str, Any]:
 
 @dataclass
 class Request:
-    """What the person wants, in the order in which it becomes known."""
+    """What the person wants; fields are in the order in which they become known."""
 
     words: str = ""
     command: Command | None = field(default=None, metadata=logged_as(plain=command_as_logged))
@@ -56,5 +56,5 @@ class Request:
         return self.object or ""
 
     def asks_to(self, kind: CommandKind) -> bool:
-        """Whether this kind of deed was asked for."""
+        """Whether the current command is of this kind."""
         return self.command is not None and self.command.kind == kind

@@ -147,7 +147,7 @@ class Situation:
         return self.hand.in_hand is not None and self.hand.in_hand == self.request.object
 
     def saved(self) -> Self:
-        """A copy, for `restore`."""
+        """A deep copy, for `restore`."""
         twin: Self = _copied(self)
         return twin
 

@@ -1,4 +1,4 @@
-"""What a log line keeps of a dataclass: all its fields, as each declares it in its `metadata`."""
+"""Turns a dataclass into JSON for a log line, as its fields declare in their `metadata`."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import fields, is_dataclass
@@ -6,9 +6,9 @@ from functools import cache
 from typing import Any
 
 NOT_LOGGED: Mapping[str, Any] = {"logged": False}
-"""Marks a field that is not for the log."""
+"""Metadata of a field that the log leaves out."""
 PART: Mapping[str, Any] = {"part": True}
-"""Marks a field whose own fields stand in its place."""
+"""Metadata of a field whose own fields are put in its place."""
 
 
 def logged_as(
@@ -16,15 +16,18 @@ def logged_as(
     plain: Callable[[Any], Any] | None = None,
     beside: Mapping[str, Callable[[Any], Any]] | None = None,
 ) -> Mapping[str, Any]:
-    """Marks a field that the log keeps by another name, or made `plain` in its own way.
+    """Metadata of a field that the log keeps under another key, or converts in its own way.
 
-    `beside` are further keys for it, each with what it keeps.
+    Args:
+        key: the key in the log; None: the field's name.
+        plain: converts the value to what JSON can keep.
+        beside: further keys, each with the function that computes its value from the field.
     """
     return {"key": key, "plain": plain, "beside": beside or {}}
 
 
 def snapshot(of: Any) -> dict[str, Any]:
-    """The fields of a dataclass that are for the log, by their keys, as JSON can keep them."""
+    """The logged fields of a dataclass by their keys, as values that JSON can keep."""
     known: dict[str, Any] = {}
     for name, key, plain in _logged(of.__class__):
         value = getattr(of, name)
@@ -37,7 +40,7 @@ def snapshot(of: Any) -> dict[str, Any]:
 
 @cache
 def _logged(kind: type) -> tuple[tuple[str, str, Callable[[Any], Any] | None], ...]:
-    """Of each field its name, its key, and what makes it plain; None for a part."""
+    """Name, key and converter of each logged field; the converter of a part is None."""
     logged: list[tuple[str, str, Callable[[Any], Any] | None]] = []
     for field in fields(kind):
         marks = field.metadata
@@ -49,11 +52,11 @@ def _logged(kind: type) -> tuple[tuple[str, str, Callable[[Any], Any] | None], .
 
 
 _ATOMS = frozenset((str, int, float, bool, type(None)))
-"""What most values are; asked first, because this runs for each field at each tick."""
+"""The types of most values; checked first, because this runs for each field at each tick."""
 
 
 def _plain(value: Any) -> Any:
-    """The value made of lists, dictionaries and what they can hold; strange things as they are."""
+    """The value as lists, dictionaries and atoms; values of other types stay as they are."""
     kind = value.__class__
     if kind in _ATOMS:
         return value
@@ -68,5 +71,5 @@ def _plain(value: Any) -> Any:
 
 @cache
 def _names(kind: Any) -> tuple[str, ...]:
-    """Of the fields, if it is a dataclass; none otherwise."""
+    """Names of the fields if it is a dataclass; else empty."""
     return tuple(field.name for field in fields(kind)) if is_dataclass(kind) else ()

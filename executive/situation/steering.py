@@ -1,4 +1,4 @@
-"""What an experimenter wants of the places that the robot chooses."""
+"""An experimenter's control over the places that the robot chooses."""
 
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -7,7 +7,7 @@ from executive.situation.snapshot import logged_as
 
 
 class For(StrEnum):
-    """What a place is chosen for."""
+    """The purpose of a chosen place."""
 
     LOOK = "look"
     PUT = "put"
@@ -18,9 +18,8 @@ class Choice:
     """A place that the robot has chosen.
 
     Attributes:
-        to: what for.
-        place: where.
-        among: what it could have chosen instead; empty if that is any place of the home.
+        to: the purpose.
+        among: the alternatives; empty if it could be any place of the home.
     """
 
     to: For
@@ -30,14 +29,14 @@ class Choice:
 
 @dataclass
 class Steering:
-    """Whether choices wait for an experimenter, and what they said; it outlives tasks."""
+    """Whether choices wait for an experimenter, and what they decided; it outlives tasks."""
 
     holds: bool = field(default=False, metadata=logged_as("holds_places"))
     choice: Choice | None = field(default=None, metadata=logged_as("held_choice"))
-    """The choice that waits; None if none does."""
+    """The choice that waits; None if there is none."""
     instead: str = field(default="", metadata=logged_as("chosen_instead"))
-    """The place that was said for it, and was not taken up yet."""
+    """The place that the experimenter chose for it, not yet applied; empty if there is none."""
 
     def wait(self, choice: Choice | None) -> None:
-        """A choice waits, or none does any more; what was said of another one counts no more."""
+        """Set the choice that waits, or None, and forget the decision about the one before."""
         self.choice, self.instead = choice, ""

@@ -1,4 +1,4 @@
-"""What is at places, as far as it was seen by looking at all that is there."""
+"""What the robot saw on a look around."""
 
 from dataclasses import dataclass, field
 
@@ -7,28 +7,28 @@ from executive.situation.snapshot import NOT_LOGGED
 
 @dataclass
 class Survey:
-    """What a look around has seen; of which places all was seen, `Search.looks` knows."""
+    """What a look around has seen; `Search.looks` knows which places were seen completely."""
 
     about: tuple[str, ...] | None = None
-    """The things that it is about; None: everything."""
+    """The things to look for; None: everything."""
     seen: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    """Each place that was looked at, and all that was surely seen there."""
+    """Each place that was looked at, and what was surely seen there."""
     lengths: dict[str, tuple[float, ...]] = field(default_factory=dict, metadata=NOT_LOGGED)
-    """How long each thing is in three directions, as far as it was in view (m), longest first."""
+    """Extents of each thing's visible part along three axes (metres), the longest first."""
 
     def look_at(self, place: str) -> None:
-        """The place is looked at."""
+        """Note that the robot looks at the place."""
         self.seen.setdefault(place, ())
 
     def see(self, place: str, name: str) -> None:
-        """It is there."""
+        """Note that this thing was seen at the place."""
         there = self.seen.get(place, ())
         if name not in there:
             self.seen[place] = (*there, name)
 
     @property
     def found(self) -> dict[str, str]:
-        """The things that it is about, as far as they were seen, and where."""
+        """The wanted things that were seen, each with its place."""
         return {
             name: place
             for place, names in self.seen.items()

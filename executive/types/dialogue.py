@@ -1,11 +1,11 @@
-"""What the person is asked."""
+"""Questions to the person."""
 
 from dataclasses import dataclass
 from enum import StrEnum
 
 
 class QuestionKind(StrEnum):
-    """What a question is after."""
+    """What a question asks for."""
 
     WHICH_OBJECT = "which_object"
     WHERE_IS = "where_is"
@@ -16,10 +16,13 @@ class QuestionKind(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """Something that only the person can say.
+    """A question that only the person can answer.
 
-    `about` is the object or class in question; `options` are the known answers, if they are few,
-    or the objects that it is about, if yes or no is the answer.
+    Attributes:
+        about: the object or class in question.
+        text: the question as the person gets it.
+        options: the possible answers, if they are few; of a yes-or-no question, the objects that it
+            is about.
     """
 
     kind: QuestionKind

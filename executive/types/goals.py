@@ -1,4 +1,4 @@
-"""What the robot's body can be asked to do."""
+"""Goals that the robot can pursue."""
 
 from dataclasses import dataclass
 
@@ -8,17 +8,19 @@ from executive.types.perception import Detection
 
 @dataclass(frozen=True, slots=True)
 class DriveTo:
-    """Go and stand before a piece of furniture, `person` or `delivery`."""
+    """Drive to a piece of furniture, to `person` or to `delivery`, and stand in front of it."""
 
     place: str
 
 
 @dataclass(frozen=True, slots=True)
 class LookAt:
-    """Point the head at a place, `delivery` or the `floor`.
+    """Point the camera at a piece of furniture, at `delivery` or at the `floor`.
 
-    `view` counts from 0 to `Robot.views(place) - 1`. With a `point` of `map` (metres) given, that
-    is in the middle of the picture instead.
+    Attributes:
+        view: number of the head pose, from 0 to `Robot.views(place) - 1`.
+        point: if given, the point of `map` (metres) to bring to the middle of the picture, instead
+            of `view`.
     """
 
     place: str
@@ -35,14 +37,14 @@ class Pick:
 
 @dataclass(frozen=True, slots=True)
 class PutDown:
-    """Place the held thing on a free spot of this place."""
+    """Put the held thing down on a free spot of this place."""
 
     place: str
 
 
 @dataclass(frozen=True, slots=True)
 class Halt:
-    """Come to rest, whatever is under way; a held thing stays held."""
+    """Stop all motion; a held thing stays held."""
 
 
 Goal = DriveTo | LookAt | Pick | PutDown | Halt

@@ -1,17 +1,17 @@
-"""What is in a home, where else the robot or a thing may be, and what all that is called."""
+"""Furniture and things of a home, other places, and what all of them are called."""
 
 from dataclasses import dataclass
 
 PERSON = "person"
-"""Where the robot stands when it speaks with the person; it is no furniture."""
+"""Where the robot stands when it speaks with the person; not furniture."""
 DELIVERY = "delivery"
-"""The place by the person where brought things are put down; it is no furniture to search."""
+"""The place near the person where brought things are put down; not furniture."""
 FLOOR = "floor"
-"""The floor around the robot, wherever it is: a place to look at, for what fell from the hand."""
+"""The floor around the robot, wherever it stands: where to look for what fell from the hand."""
 HAND = "hand"
-"""Where a thing is that the robot holds, for those who ask where it is."""
+"""The place of a thing that the robot holds."""
 SOMETHING = "something"
-"""In the hand, as far as the fingers feel, but nobody knows what."""
+"""The thing in the hand, if the fingers feel one and nobody knows which."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,45 +26,45 @@ class Place:
     room_kind: str
     """The room's class in the ontology: `Kitchen`, `Bedroom`, ..."""
     label: str = ""
-    """What the robot calls it ("Anna's desk"); empty: what its name says."""
+    """What the robot calls it ("Anna's desk"); empty: use the name."""
     room_label: str = ""
-    """The same of the room."""
+    """The same for the room."""
 
 
 @dataclass(frozen=True, slots=True)
 class Thing:
-    """An object that the home file declares, since no file of the ontology does."""
+    """An object that the home file declares because the ontology does not have it."""
 
     name: str
     kind: str
     """Its class in the ontology: `Kitchenware`, `Toy`, ..."""
     color: str = ""
-    """What its colour is called, one of `executive.colors.COLORS`; empty if nobody gave one."""
+    """The name of its colour, one of `executive.colors.COLORS`; empty if the file gives none."""
 
 
 @dataclass(frozen=True, slots=True)
 class Called:
-    """What a thing or a piece of furniture is called when one speaks of it."""
+    """What an object, a class or a piece of furniture is called in a sentence."""
 
     words: str
     """Without an article: "sugar box"."""
     plural: bool = False
-    """Whether one says "are" of it, as of scissors."""
+    """Whether the verb is "are", as for scissors."""
     bare: bool = False
-    """Whether it has no article, as a class of things: "fruit"."""
+    """Whether it takes no article, like a class of things: "fruit"."""
     preposition: str = "on"
-    """How things are with it, if it is furniture: "in" or "on"."""
+    """Of furniture: whether things are "in" or "on" it."""
     room: str = ""
-    """What the room is called that it stands in; empty if the words say so, or it is a thing."""
+    """Of furniture: what its room is called; empty if `words` say it."""
     says_room: bool = False
-    """Whether nobody would know it without the room."""
+    """Whether the words alone are ambiguous, so that the room must be said."""
 
 
 @dataclass(frozen=True, slots=True)
 class OtherColor:
-    """Things that are called as was said, and have none of the colours that were said."""
+    """Things with the name that the person said, but with none of the colours that they said."""
 
     wanted: tuple[str, ...]
-    """The colours that were said."""
+    """The colours that the person said."""
     actual: tuple[tuple[str, tuple[str, ...]], ...]
-    """Each thing, and its own colours."""
+    """Each thing with its colours."""

@@ -1,25 +1,27 @@
-"""What is said of where things are, and who says so."""
+"""Statements about where things are, and their sources."""
 
 from dataclasses import dataclass
 from enum import StrEnum
 
 
 class Source(StrEnum):
-    """Who an answer came from; a knowledge source of one's own has a name of its own besides."""
+    """Our own sources of statements; a `PlaceSource` of others has its own name."""
 
     ONTOLOGY = "ontology"
     LLM = "llm"
     USER = "user"
     MEMORY = "memory"
     HABITS = "habits"
-    """Of the people at home, as the robot has learned them."""
+    """The habits of the people at home, as the robot has learned them."""
 
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
-    """A place where the thing may be, who says so, and how likely (None where nobody said).
+    """A place where the thing may be.
 
-    `source` is one of `Source`, or the name of a `PlaceSource`.
+    Attributes:
+        source: who says so: one of `Source`, or the name of a `PlaceSource`.
+        probability: in [0, 1]; None if the source gives none.
     """
 
     place: str
@@ -33,10 +35,12 @@ class Candidate:
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """What is left of a reply's names after they were looked up in the ontology.
+    """The names in a model's reply, sorted by a look-up in the ontology.
 
-    `furniture` exists (and is allowed), in the order of the reply; `rooms` exist and have yet to
-    be expanded into furniture; `dropped` are the names of nothing here.
+    Attributes:
+        furniture: furniture that exists and is allowed, in the order of the reply.
+        rooms: rooms that exist, still to be expanded into furniture.
+        dropped: names of nothing in this home.
     """
 
     furniture: tuple[str, ...]

@@ -1,4 +1,4 @@
-"""What a language model is asked, and what a call cost."""
+"""Requests to a language model, and what a call costs."""
 
 from dataclasses import dataclass, field
 from typing import Any
@@ -6,7 +6,7 @@ from typing import Any
 
 @dataclass(frozen=True, slots=True)
 class Message:
-    """One turn of a chat: role is `system`, `user` or `assistant`."""
+    """One message of a chat; `role` is `system`, `user` or `assistant`."""
 
     role: str
     content: str
@@ -14,10 +14,11 @@ class Message:
 
 @dataclass(frozen=True, slots=True)
 class ChatRequest:
-    """Ask the language model to write.
+    """Ask the language model for a text.
 
-    `label` names the prompt (the paper's labels); `schema` is the JSON schema that the reply should
-    follow, for models that can be held to one.
+    Attributes:
+        label: name of the prompt (the paper's labels).
+        schema: JSON schema for the reply, for models that can follow one.
     """
 
     label: str
@@ -27,9 +28,9 @@ class ChatRequest:
 
 @dataclass(frozen=True, slots=True)
 class Precedent:
-    """A thing whose places are known: the question about it, and the right answers to that.
+    """A thing whose places are known: the question about it, and the right answers.
 
-    `kind` is the class above it in the ontology; empty if there is none.
+    `kind` is the parent class in the ontology; empty if there is none.
     """
 
     messages: tuple[Message, ...]
@@ -41,12 +42,18 @@ class Precedent:
 class RankRequest:
     """Ask the language model how likely each of `options` is as its next words.
 
-    What counts is log P(option | messages) - log P(option | neutral): `neutral` is the same chat
-    with the thing left open, so that what is merely a common phrase does not win; empty, it counts
-    for nothing. `places` are the places that the options stand for, in the same order, and
-    `place_kinds` their classes and rooms (empty: not known). A model that can tell which questions
-    are alike takes the `precedents` into account; so are, a little, those about things of the same
-    `kind`.
+    The score is log P(option | messages) - log P(option | neutral), so that an option does not win
+    only because it is a common phrase.
+
+    Attributes:
+        label: name of the prompt.
+        messages: the chat that asks about the thing.
+        neutral: the same chat without the thing; if empty, its term is 0.
+        options: texts to score.
+        places: the places that the options stand for, in the same order.
+        precedents: similar questions with known answers, for models that can compare questions.
+        kind: parent class of the thing; precedents of the same kind count as slightly more similar.
+        place_kinds: class and room of each place, in the same order; empty if not known.
     """
 
     label: str
@@ -61,9 +68,9 @@ class RankRequest:
 
 @dataclass(frozen=True, slots=True)
 class Usage:
-    """What one call cost: tokens in (of them evaluated, the rest cached), tokens out, seconds.
+    """What one call cost: input tokens (evaluated or cached), output tokens, seconds.
 
-    What was prepared for it, before it was asked and since the call before, is counted apart.
+    `prepared_tokens` and `prepared_s` count the preparation between the previous call and this one.
     """
 
     model: str = ""

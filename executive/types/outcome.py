@@ -1,4 +1,4 @@
-"""What came of a mission and of its tasks."""
+"""Outcomes of a mission and of its tasks."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -18,7 +18,7 @@ class MissionStatus(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class TaskOutcome:
-    """What came of one of the tasks of a mission; its fields are as those of `Outcome`."""
+    """The outcome of one task of a mission; fields as in `Outcome`."""
 
     kind: CommandKind
     target: str
@@ -29,22 +29,22 @@ class TaskOutcome:
     goals: tuple[str, ...] = ()
     visited: tuple[str, ...] = ()
     things: tuple[str, ...] = ()
-    """Of a question: the things that were seen, and are the answer to it."""
+    """Of a question: the things that were seen and answer it."""
     among: tuple[str, ...] = ()
     """Of a question: the things that it was about."""
     parts: "tuple[TaskOutcome, ...]" = ()
-    """Of a task with several things: what came of each that was begun."""
+    """Of a task with several things: the outcome of each part that was begun."""
     put_at: str = ""
     """Where the thing was put down; empty if it was not."""
 
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """One mission's result: what `--json` prints and `outcome.json` keeps.
+    """The outcome of one mission: `--json` prints it, and `outcome.json` keeps it.
 
-    If there were several tasks, each is in `tasks`; `kind`, `target`, `object`, `source`,
-    `location`, `candidates` and `goals` are those of the last one that was begun, and `done` is
-    only said if all of them were.
+    Of a mission with several tasks, `kind`, `target`, `object`, `source`, `location`, `candidates`
+    and `goals` are those of the last task that was begun; `status` is `DONE` only if all tasks were
+    done.
     """
 
     command: str
@@ -64,8 +64,8 @@ class Outcome:
     wall_time_s: float
     run_dir: str | None
     model_failure: str = ""
-    """Why the language model was of no help, as a clause; empty if it was, or was not asked."""
+    """Why the language model did not help, as a clause; empty if it did, or was not asked."""
     goals: tuple[str, ...] = ()
-    """The furniture that would do as the place where the thing, or the robot, was to go."""
+    """The furniture that was acceptable as the goal of the thing, or of the robot."""
     tasks: tuple[TaskOutcome, ...] = ()
-    """What came of each task, in the order in which they ended; those not begun come last."""
+    """The outcome of each task, in the order in which they ended; those not begun come last."""

@@ -1,18 +1,18 @@
-"""What a camera sees, and what is recognised in it."""
+"""Camera frames, and the things recognised in them."""
 
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from executive.types.geometry import Pose, Vector3
 
-if TYPE_CHECKING:  # a quarter of the time that --help takes
+if TYPE_CHECKING:  # importing numpy takes a quarter of the time of --help
     import numpy as np
     from numpy.typing import NDArray
 
 
 @dataclass(frozen=True, slots=True)
 class Intrinsics:
-    """A pinhole camera without distortion (pixels)."""
+    """Intrinsics of a pinhole camera without distortion (pixels)."""
 
     width: int
     height: int
@@ -22,7 +22,7 @@ class Intrinsics:
     cy: float
 
     def scaled(self, factor: float) -> "Intrinsics":
-        """The same camera with so many times as many pixels in a row."""
+        """The same camera with its width and height, in pixels, multiplied by `factor`."""
         width, height = round(self.width * factor), round(self.height * factor)
         return Intrinsics(
             width, height, self.fx * factor, self.fy * factor, self.cx * factor, self.cy * factor
@@ -31,14 +31,14 @@ class Intrinsics:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Frame:
-    """One picture: colour, depth, and where the camera was.
+    """One picture: colour, depth, and the pose of the camera.
 
     Attributes:
-        number: counts the pictures of one robot from 0.
+        number: number of the picture; each robot counts its own from 0.
         color: (height, width, 3) uint8, RGB.
         depth: (height, width) float32, metres along the optical axis; infinite where nothing is.
-        intrinsics: the camera's.
-        pose: `camera_optical` in `map`.
+        intrinsics: of the camera.
+        pose: pose of `camera_optical` in `map`.
     """
 
     number: int
@@ -49,7 +49,7 @@ class Frame:
 
     @property
     def coming(self) -> bool:
-        """Whether its pixels are still drawn elsewhere: who reads them waits for them."""
+        """Whether its pixels are still being rendered elsewhere; reading them waits for that."""
         return False
 
 
@@ -74,12 +74,12 @@ class Detection:
     """A thing recognised in a picture.
 
     Attributes:
-        label: an object's name as in the ontology.
+        label: name of the object in the ontology.
         confidence: in [0, 1].
-        box: in the picture.
+        box: its bounding box in the picture.
         mask: (box.height, box.width) bool, the thing's pixels inside the box.
         points: (n, 3) float32, its visible surface in `map` (metres); empty until located by depth.
-        cut_off: whether it reaches the edge of the picture, so that there may be more of it.
+        cut_off: whether it touches the edge of the picture, so that a part may be outside.
     """
 
     label: str
@@ -91,7 +91,7 @@ class Detection:
 
     @property
     def position(self) -> Vector3 | None:
-        """Middle of the visible surface in `map` (metres), or None before it is located."""
+        """Median of `points` in `map` (metres); None before the thing is located."""
         if not len(self.points):
             return None
         from numpy import median

@@ -1,4 +1,4 @@
-"""What comes back: the end of anything that was started."""
+"""Results of requests."""
 
 from dataclasses import dataclass
 
@@ -8,15 +8,17 @@ from executive.types.perception import Detection
 
 @dataclass(frozen=True, slots=True)
 class Succeeded:
-    """The robot did it."""
+    """The robot reached its goal."""
 
 
 @dataclass(frozen=True, slots=True)
 class Failed:
-    """It could not be done, and why, as a clause for the person: "the way is blocked".
+    """The request failed.
 
-    `lost` tells that what was in the hand fell out of it on the way, and lies about; `unreachable`
-    that there is no way to the robot any more, so that the mission ends: nothing else is tried.
+    Attributes:
+        reason: why, as a clause for the person: "the way is blocked".
+        lost: whether the held thing fell from the hand on the way.
+        unreachable: whether the robot itself cannot be reached any more; this ends the mission.
     """
 
     reason: str
@@ -26,7 +28,7 @@ class Failed:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Saw:
-    """The picture with this number, and what was recognised in it, surest first."""
+    """What was recognised in the picture of this number, the highest confidence first."""
 
     frame_number: int
     detections: tuple[Detection, ...]
@@ -44,7 +46,7 @@ class Replied:
 
 @dataclass(frozen=True, slots=True)
 class Scored:
-    """The logarithm of how likely each option is, up to a constant, in the request's order."""
+    """Log-likelihoods of the options, up to a common constant, in the request's order."""
 
     request: RankRequest
     scores: tuple[float, ...]
@@ -53,7 +55,7 @@ class Scored:
 
 @dataclass(frozen=True, slots=True)
 class Answered:
-    """The person said this."""
+    """The person gave this answer."""
 
     text: str
 
