@@ -1,10 +1,10 @@
 """The report about a task done in parts: how many, which ones, and why not more."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
-from executive.language.wording import listed
+from executive.language.wording import beginning, listed
 from executive.situation import Whole
-from executive.types.commands import CommandKind
+from executive.types.commands import Command, CommandKind
 from executive.types.home import DELIVERY
 from executive.types.outcome import MissionStatus, TaskOutcome
 from trees.context import MissionContext
@@ -15,24 +15,41 @@ from trees.telling import number, to_where
 
 def how_many(context: MissionContext, whole: Whole, wanted: int) -> str:
     """A sentence: "I brought one of two: the apple; not the pear: I did not find it"."""
-    command, done = whole.command, whole.done
+    command, unmoved = whole.command, already_there(whole)
+    done = [part for part in whole.done if part not in unmoved]
     count = f"{number(len(done))} of {number(wanted)}"
     if len(done) == wanted:
         count = {1: "one", 2: "both"}.get(wanted, f"all {number(wanted)}")
         count = number(wanted) if whole.unseen else count
     did = " ".join(filter(None, (deed_of(command.kind).did, count, to_where(context, command))))
-    which = named(context, whole)
-    why = why_not_all(context, whole) if len(done) < wanted else ()
-    clauses = (f"I {did}" + f": {which}" * bool(which), *why, whole.unseen)
-    return "; ".join(filter(None, clauses)) + "."
+    which = named(context, command, done)
+    why = why_not_all(context, whole) if len(whole.done) < wanted else ()
+    deed = f"I {did}" + f": {which}" * bool(which)
+    clauses = ("" if unmoved and not done else deed, found_there(context, unmoved))
+    return beginning("; ".join(filter(None, (*clauses, *why, whole.unseen)))) + "."
 
 
-def named(context: MissionContext, whole: Whole) -> str:
+def already_there(whole: Whole) -> Sequence[TaskOutcome]:
+    """The parts for which nothing had to be carried."""
+    carries = whole.command.kind.means.carries
+    return [part for part in whole.done if carries and not part.put_at]
+
+
+def found_there(context: MissionContext, parts: Sequence[TaskOutcome]) -> str:
+    """A clause: these things were in their place already; empty if there are none."""
+    names = [part.object or part.target for part in parts]
+    if not names:
+        return ""
+    were = context.say.agree(names[0], "was", "were") if len(names) == 1 else "were"
+    return f"{listed([context.say.the(name) for name in names])} {were} there already"
+
+
+def named(context: MissionContext, command: Command, done: Iterable[TaskOutcome]) -> str:
     """The things that were done; with their places, unless the words already say where."""
-    at = {part.object or part.target: part.put_at or part.location for part in whole.done}
-    known = len(set(at.values())) == 1 and (whole.command.goal or DELIVERY in at.values())
+    at = {part.object or part.target: part.put_at or part.location for part in done}
+    known = len(set(at.values())) == 1 and (command.goal or DELIVERY in at.values())
     places = {name: place for name, place in at.items() if place}
-    if known or len(places) < len(at) or whole.command.kind == CommandKind.TAKE:
+    if known or len(places) < len(at) or command.kind == CommandKind.TAKE:
         return listed([context.say.the(name) for name in at])
     return found_where(places, context.say)
 

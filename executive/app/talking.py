@@ -9,9 +9,11 @@ from executive.language.meaning import Correction
 from executive.language.phrases import spoken
 from executive.language.pronouns import resolved
 from executive.language.spoken import after
+from executive.language.wording import beginning
 from executive.replies import Standing, about, reply
 from executive.situation import Before
 from executive.types.outcome import Outcome, TaskOutcome
+from trees.telling import sentence
 
 
 def answer(words: str, parts: Parts, before: Before) -> tuple[str, Before]:
@@ -48,7 +50,7 @@ def _standing(before: Before) -> Standing:
         before.in_hand,
         visits=[one for one in last.candidates if one.place in visited],
         been={*last.visited, *chain.from_iterable(map(_put_at, last.tasks)), before.at},
-        reason=last.reason,
+        reason=sentence(beginning(last.reason)) if last.reason else "",
         stands=before.stands,
         asked=last.command,
     )

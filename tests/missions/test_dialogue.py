@@ -10,6 +10,7 @@ from talking import session_in, session_of, told
 from executive.app.session import Session
 from executive.replay.replaying import replay
 from executive.types.home import DELIVERY
+from executive.types.goals import DriveTo
 from executive.types.outcome import MissionStatus, Outcome
 
 Talk = Callable[..., Session]
@@ -193,6 +194,16 @@ def test_answers_questions_about_itself_without_a_mission(
     runs = os.listdir(session.settings.runs)
     assert (session.run(question).reason, told(session)[-1]) == (answer, answer)
     assert os.listdir(session.settings.runs) == runs
+
+
+def test_a_reason_that_is_asked_for_is_a_sentence(tmp_path: Path) -> None:
+    with session_of(tmp_path) as session:
+        blocked = lambda goal: "the way is blocked" if goal == DriveTo("person") else None  # noqa: E731
+        session.world.fault = blocked  # type: ignore[attr-defined]
+        session.run("Find the mug")
+        assert session.run("What did you do?").reason == (
+            "The mug is on the coffee table in the living room, but the way is blocked."
+        )
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,6 @@
 """Several things in one task, one of several, deeds on a condition, and all that is somewhere."""
 
+from fnmatch import fnmatch
 from pathlib import Path
 
 import pytest
@@ -188,6 +189,17 @@ def test_of_everything_that_is_put_back_it_is_what_the_robot_took() -> None:
     assert back.outcome.tasks[-1].reason == (
         "I put back both: the pear on the high table and the hammer on the shelf in the lobby."
     )
+
+
+def test_what_was_there_already_is_not_said_to_be_moved() -> None:
+    put = run(
+        "Put the tools on the sofa. Then put all the tools on the sofa.",
+        place={"hammer": "sofa"},
+        search="plan",
+    )
+    first, second = put.outcome.tasks
+    assert fnmatch(first.reason, "I put two of three on the sofa: *; the hammer was there already.")
+    assert fnmatch(second.reason, "The *, the * and the * were there already.")
 
 
 def test_what_is_cleared_away_goes_to_nothing_that_is_cleared() -> None:
