@@ -142,16 +142,16 @@ def forget_origins(graph: onnx.GraphProto) -> None:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """What to train on, for how long, and where the results go.
+    """The settings of a training.
 
     Attributes:
         frames: the folder of the shards.
-        out: the ONNX file.
-        checkpoint: is gone on from if it is there, and written every two minutes.
-        start: a checkpoint whose weights a new training starts with.
-        crops: to learn from, in all.
-        batch: crops a step.
-        rate: the highest rate of learning.
+        out: the ONNX file to write.
+        checkpoint: written every two minutes; if it exists, the training continues from it.
+        start: a checkpoint with initial weights for a new training.
+        crops: number of crops in all.
+        batch: number of crops per step.
+        rate: the highest learning rate.
         seed: of weights and crops.
     """
 
