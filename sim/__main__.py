@@ -33,10 +33,10 @@ if TYPE_CHECKING:  # a command imports what it needs
 
 WIDTH, HEIGHT = 1280, 1080
 DISTANCE = 4.35
-"""From the home to the eye, in lengths of the home: so far that lines are nearly parallel."""
+"""Distance of the camera, as a multiple of the home's length: so far that perspective is weak."""
 STEEPNESS = math.radians(62.0)
 MARGIN = 1.08
-"""How much more than the home the picture shows."""
+"""The picture shows this many times the size of the home."""
 
 
 @entry_point
@@ -113,7 +113,7 @@ def _check(options: argparse.Namespace) -> int:
 
 
 def _unknown(options: argparse.Namespace) -> "tuple[InputError, ...]":
-    """What the ontology does not know, or knows as something else; of a sound file only."""
+    """Names of the home that the ontology lacks or has as something else; if the file is valid."""
     from kb.ontology.ontology import Ontology
     from sim.home.home_file import inspect_home
 
@@ -145,7 +145,7 @@ def _write(path: Path, content: bytes) -> None:
 
 
 def draw(home: "Home", models: "Mapping[str, ObjectModel]") -> "NDArray[np.uint8]":
-    """The home with low walls, obliquely from the south: (HEIGHT, WIDTH, 3) RGB."""
+    """Draw the home with low walls, obliquely from the south: (HEIGHT, WIDTH, 3) RGB."""
     import numpy as np
     from scipy.spatial.transform import Rotation
 

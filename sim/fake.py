@@ -1,7 +1,7 @@
-"""The instant world: a robot, camera and detector without physics, for tests and campaigns.
+"""The instant world: a simulated robot without physics, for tests and campaigns.
 
-The world knows which thing is on which furniture, and every action takes a nominal time. The robot
-drives in straight lines, sees whatever is there, and never drops a thing unless a fault makes it.
+It keeps which object is on which furniture, and actions take nominal times. The robot drives in
+straight lines, always sees what is there, and never drops an object without an injected fault.
 """
 
 import heapq
@@ -61,7 +61,7 @@ class Drive:
     seconds: float
 
     def at(self, time: float) -> tuple[float, float, float]:
-        """Where the robot is at a time (s); it has the yaw of the goal from the start."""
+        """The robot's pose at a time (s); it turns at once when the drive begins."""
         part = min(1.0, (time - self.began) / self.seconds) if self.seconds else 1.0
         x, y, _ = (a + part * (b - a) for a, b in zip(self.start, self.goal, strict=True))
         return x, y, self.goal[2]
@@ -73,7 +73,7 @@ def knows(home: Home, place: str) -> bool:
 
 
 def straight_s(home: Home, start: str, place: str, speed_m_s: float = SPEED_M_S) -> float:
-    """How long the straight way takes (s); infinite if one of the places is not in this home."""
+    """The time of a straight drive (s); infinite if one of the places is not in this home."""
     if not (knows(home, start) and knows(home, place)):
         return math.inf
     ends = (home.stand(name)[:2] for name in (start, place))
@@ -81,7 +81,7 @@ def straight_s(home: Home, start: str, place: str, speed_m_s: float = SPEED_M_S)
 
 
 class FakeWorld:
-    """Implements `SimulatedHome`: where everything is, and when each request ends."""
+    """The state of the instant world, and the requests that will end. Implements World."""
 
     def __init__(
         self,
@@ -91,14 +91,14 @@ class FakeWorld:
         fault: Fault = _no_fault,
         spots: int | None = None,
     ) -> None:
-        """Put everything where the home file says.
+        """Begin with everything where the home has it.
 
         Args:
-            home: what is where.
-            inbox: where the results of the robot's goals go.
-            recorder: where movements go.
-            fault: says which goals fail, and why.
-            spots: how many things fit on a piece of furniture; None: any number.
+            home: rooms, furniture, and where objects are.
+            inbox: receives the results of the robot's goals.
+            recorder: receives movements.
+            fault: makes chosen goals fail.
+            spots: how many objects fit on a piece of furniture; None: any number.
         """
         self.home = home
         self.inbox = inbox
@@ -111,20 +111,23 @@ class FakeWorld:
         self.pose = home.robot_start
         self.looking_at: str | None = None
         self.drive: Drive | None = None
-        """The current drive; None while the robot stands."""
+        """The current drive, if any."""
         self._time = 0.0
         self._numbers = count()
         self._agenda: list[_Due] = []
 
     @property
     def busy(self) -> bool:
-        """Whether a request is under way."""
+        """Whether any request is open."""
         return bool(self._agenda)
 
     def advance(self, at_most: float) -> float:
-        """Jump towards the end of the next request, by at most so many seconds; return how many.
+        """Let time pass until the next request is due, at most `at_most` seconds.
 
-        When its time has come, end the request; that takes no time.
+        If one is due now, end it; no time passes then.
+
+        Returns:
+            The time that has passed (s).
         """
         until_due = self._agenda[0].time - self._time if self._agenda else math.inf
         if until_due > 0:
@@ -136,20 +139,20 @@ class FakeWorld:
         return 0.0
 
     def close(self) -> None:
-        """Nothing to free."""
+        """Do nothing: there is nothing to close."""
 
     def resting_place(self, name: str) -> str | None:
-        """The furniture that a thing is on; None if it is held or not in this world."""
+        """The furniture that an object is on, by ground truth; None if held or not here."""
         return self.things.get(name)
 
     def left(self) -> dict[str, Spot]:
-        """Where the things are that are on furniture."""
+        """The spots of all objects that are on furniture."""
         pieces = {piece.name for piece in (*self.home.furniture, self.home.delivery)}
         on_furniture = ((name, place) for name, place in self.things.items() if place in pieces)
         return {name: Spot(furniture=place) for name, place in on_furniture}
 
     def put(self, name: str, furniture: str) -> bool:
-        """Put a thing on other furniture, as a person would; whether that was possible."""
+        """Put an object on other furniture, as a person would; whether that was possible."""
         there = list(self.things.values()).count(furniture)
         if name not in self.things or (self.spots is not None and there >= self.spots):
             return False
@@ -157,7 +160,7 @@ class FakeWorld:
         return True
 
     def describe(self) -> None:
-        """Record where the robot is."""
+        """Record the robot's pose."""
         x, y, yaw = self.pose
         orientation = heading(yaw)
         base = Transform("map", "base_link", Pose((x, y, 0.0), orientation))
@@ -165,23 +168,23 @@ class FakeWorld:
 
     @property
     def time(self) -> float:
-        """How long this world has existed (s)."""
+        """The time since the world began (s)."""
         return self._time
 
     def brake(self) -> None:
-        """End the current drive, if there is one: the robot stands where it has come to."""
+        """Stop the current drive, if any, where it is now."""
         if self.drive:
             self.pose, self.drive = self.drive.at(self._time), None
             self.describe()
 
     def schedule(self, delay: float, finish: Callable[[], Result]) -> int:
-        """Open a request that ends after `delay` seconds with what `finish` returns."""
+        """Open a request that ends after `delay` seconds with the result of `finish`."""
         request = self.inbox.open()
         heapq.heappush(self._agenda, _Due(self._time + delay, next(self._numbers), request, finish))
         return request
 
     def forget(self, request: int) -> bool:
-        """Remove a request, so that it never ends; return whether it was under way."""
+        """Remove a request from the agenda; return whether it was there."""
         before = len(self._agenda)
         self._agenda = [due for due in self._agenda if due.request != request]
         heapq.heapify(self._agenda)
@@ -192,21 +195,21 @@ class FakeRobot:
     """Implements `Robot` in the instant world."""
 
     def __init__(self, world: FakeWorld) -> None:
-        """Control the robot of this world."""
+        """Begin at the world's start pose."""
         self._world = world
         self._request: int | None = None
 
     @property
     def holding(self) -> bool:
-        """Whether it holds a thing."""
+        """Whether it holds an object."""
         return self._world.held is not None
 
     def views(self, place: str) -> int:
-        """One look is enough here."""
+        """Always 1: one look sees all of a place."""
         return 1
 
     def seconds(self, start: str, place: str) -> float:
-        """How long the straight way takes (s); infinite if a place is not in this home."""
+        """The time of a straight drive (s); infinite if one of the places is not in this home."""
         return straight_s(self._world.home, start, place)
 
     def start(self, goal: Goal | GoTo) -> int:
@@ -224,7 +227,7 @@ class FakeRobot:
         return self._request
 
     def cancel(self, request: int) -> None:
-        """Stop where the robot is; nothing is delivered."""
+        """Cancel a request; the robot stops where it is."""
         if self._world.forget(request):
             self._world.brake()
         self._world.inbox.drop(request)
@@ -299,17 +302,17 @@ class FakeRobot:
 
 
 class FakeCamera:
-    """Implements `Camera`: a grey picture with a tag for each thing in view."""
+    """Implements Camera: grey pictures with a tag for each object in view."""
 
     intrinsics = Intrinsics(width=160, height=120, fx=125.0, fy=125.0, cx=79.5, cy=59.5)
 
     def __init__(self, world: FakeWorld) -> None:
-        """Look at this world from the robot's head."""
+        """Take pictures of this world."""
         self._world = world
         self._numbers = count()
 
     def capture(self) -> Frame:
-        """Draw a tag for each thing in view."""
+        """Take a picture now."""
         size = (self.intrinsics.height, self.intrinsics.width)
         color = np.full((*size, 3), 120, dtype=np.uint8)
         for name, box in zip(in_view(self._world), spots(size[1], size[0]), strict=False):
@@ -322,14 +325,14 @@ class FakeCamera:
 
 
 class FakeDetector:
-    """Implements `Detector` by asking the world, in place of real recognition."""
+    """Implements Detector with the world's ground truth: stands in for a real one."""
 
     def __init__(self, world: FakeWorld) -> None:
-        """Detect the things of this world."""
+        """Detect the objects of this world."""
         self._world = world
 
     def detect(self, frame: Frame) -> tuple[Detection, ...]:
-        """A detection of each thing on the furniture that the robot looks at."""
+        """All objects on the furniture that the robot looks at, whatever the picture shows."""
         return tuple(
             Detection(name, 1.0, spot(index, FakeCamera.intrinsics.width), whole())
             for index, name in enumerate(in_view(self._world))
@@ -337,7 +340,7 @@ class FakeDetector:
 
 
 def in_view(world: FakeWorld) -> tuple[str, ...]:
-    """Names of the things on the furniture that the robot looks at, in the home's order."""
+    """Names of the objects on the furniture that the robot looks at, in the home's order."""
     if world.looking_at is None:
         return ()
     return tuple(name for name, place in world.things.items() if place == world.looking_at)

@@ -26,7 +26,7 @@ class Thinker:
     """Runs the long computations of skills on a worker thread, outside the control loop."""
 
     def __init__(self, inbox: Inbox) -> None:
-        """Start the worker; `inbox` tells when a result is there."""
+        """Begin with no computation; `inbox` tells when a result is there."""
         self._inbox = inbox
         self._worker = Worker("robot")
         self._pending: Computation[Any] | None = None

@@ -36,7 +36,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def parser() -> argparse.ArgumentParser:
-    """The command line."""
+    """Build the parser of the command line."""
     p = Parser(prog="python -m sim.learning", description=__doc__)
     commands = p.add_subparsers(required=True, metavar="command")
     _add_frames(commands.add_parser("frames", help="render scenes drawn by chance"))

@@ -1,4 +1,4 @@
-"""Pieces of pictures for training: cheap to learn from, since most of a picture is furniture."""
+"""Crops of pictures for training: cheaper than whole pictures, which are mostly furniture."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -19,20 +19,20 @@ SIDE = 256
 """Side of a crop (pixels)."""
 SHARDS_AT_ONCE = 6
 LEAST_LEFT = 0.5
-"""A thing of whose box less than this share is in the crop is not asked for."""
+"""An object counts only if at least this fraction of its box is in the crop."""
 LEAST_SIDE = 3
 HARD = {"adjustable_wrench": 4.0, "hammer": 3.0, "scissors": 2.0, "spatula": 3.0}
-"""Long thin things are learned slowest: crops are so many times more often about them."""
+"""Long thin objects are learned slowest: crops show them this many times as often as others."""
 _AT_RANDOM = 0.15
 ZOOM = (0.8, 1.35)
-"""Half of the crops are enlarged or made smaller, so that fewer frames show more sizes."""
+"""Range of the random scale of half of the crops, so that fewer frames show more sizes."""
 _NOISES = 24
 
 Batch = tuple[Tensor, list[Wanted]]
 
 
 def batches(folder: Path, size: int, chance: Generator) -> Iterator[Batch]:
-    """Batches without end, made on a thread beside the training."""
+    """Endless batches, made on a thread of their own."""
     ready: Queue[Batch | Exception] = Queue(maxsize=6)
 
     def make() -> None:
@@ -65,7 +65,7 @@ def _batches(folder: Path, size: int, chance: Generator) -> Iterator[Batch]:
 
 
 def _crops(example: Example, chance: Generator) -> list[Example]:
-    """Some about things, now and then one from anywhere."""
+    """Random crops of a picture: most of them around objects, some from anywhere."""
     asked = np.flatnonzero(example.counts)
     weights = np.array([HARD.get(class_names()[i], 1.0) for i in example.classes[asked]])
     number = 1 + round(weights.sum() / 2)
@@ -84,9 +84,14 @@ def _crops(example: Example, chance: Generator) -> list[Example]:
 
 
 def crop(example: Example, left: int, top: int, side: int, flip: bool) -> Example:
-    """The square from this corner, SIDE pixels wide whatever its `side` in the picture was.
+    """A square crop with its clipped boxes, resized to SIDE pixels.
 
-    With what is left of the boxes in it.
+    Args:
+        example: the picture.
+        left: first column.
+        top: first row.
+        side: of the square in the picture (pixels).
+        flip: whether to mirror it horizontally.
     """
     color = example.color[top : top + side, left : left + side]
     edges = example.boxes - np.array([left, top, left, top], np.float32)
@@ -104,14 +109,17 @@ def crop(example: Example, left: int, top: int, side: int, flip: bool) -> Exampl
 
 
 def _resized(color: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """SIDE pixels wide and high."""
+    """The picture, resized to SIDE x SIDE pixels."""
     channels = torch.from_numpy(np.ascontiguousarray(color)).permute(2, 0, 1)[None].float()
     fitted = functional.interpolate(channels, (SIDE, SIDE), mode="bilinear")[0]
     return np.asarray(fitted.permute(1, 2, 0).round().numpy(), np.uint8)
 
 
 def _batch(crops: list[Example], noise: Tensor, chance: Generator) -> Batch:
-    """Crops with the camera's flaws, as `sim.learning.decor.through_the_lens` draws them."""
+    """A batch of crops with random exposure, white balance and noise.
+
+    The distribution is that of `sim.learning.decor.through_the_lens`.
+    """
     size = len(crops)
     colors = torch.from_numpy(np.stack([one.color for one in crops]))
     gain = chance.uniform(0.72, 1.22, (size, 1)) * chance.uniform(0.94, 1.06, (size, 3)) / 255

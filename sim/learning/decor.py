@@ -1,6 +1,6 @@
-"""Looks drawn by chance: colours, patterns, light and the camera's own flaws.
+"""Domain randomisation: random colours, patterns, light, exposure and noise.
 
-What a detector learns from has to vary in everything that does not make a thing what it is.
+The training pictures of a detector must vary in everything that does not identify an object.
 """
 
 from pathlib import Path
@@ -17,11 +17,11 @@ from sim.engine import BulletClient
 PATTERN = 64
 """Side of a pattern (pixels); the renderer stretches it over each face."""
 PATTERNS = 48
-"""How many there are to choose from."""
+"""Number of patterns."""
 
 
 def write_patterns(folder: Path) -> tuple[Path, ...]:
-    """Write the patterns, always the same ones, as PNG files that the simulator loads."""
+    """Write the patterns (always the same) as PNG files for the simulator."""
     chance = np.random.default_rng(0)
     files = tuple(folder / f"{number}.png" for number in range(PATTERNS))
     for file in files:
@@ -30,7 +30,7 @@ def write_patterns(folder: Path) -> tuple[Path, ...]:
 
 
 def _pattern(chance: Generator) -> NDArray[np.uint8]:
-    """Grain, tiles, stripes or patches; bright, since the colour of the shape multiplies it."""
+    """Grain, tiles, stripes or patches; bright, because the shape's colour is multiplied by it."""
     row, column = np.mgrid[:PATTERN, :PATTERN]
     match chance.integers(4):
         case 0:
@@ -51,7 +51,7 @@ def _pattern(chance: Generator) -> NDArray[np.uint8]:
 
 
 def draw_color(chance: Generator) -> Color:
-    """Any colour, more often a quiet one as homes have them."""
+    """A random colour; muted ones, as in homes, are more frequent."""
     value = 1.0 - 0.85 * chance.uniform(0.0, 1.0) ** 2
     vivid = chance.uniform(0.0, 1.0) ** 2 * chance.uniform(0.3, 1.0)
     hue = chance.uniform(0.0, 1.0, 3)
@@ -66,7 +66,7 @@ def dress(
     patterns: tuple[Path, ...],
     chance: Generator,
 ) -> None:
-    """Give a body of so many shapes one colour in several shades, and perhaps a pattern."""
+    """Give a body with `shapes` shapes a random colour in several shades, and perhaps a pattern."""
     base = np.array(draw_color(chance)[:3])
     look = {}
     if chance.random() < 0.5:
@@ -77,7 +77,7 @@ def dress(
 
 
 def draw_light(chance: Generator) -> Light:
-    """A lamp somewhere above, whitish, weak or strong."""
+    """A whitish lamp of random direction, from above, and random strength."""
     azimuth, height = chance.uniform(0, 2 * np.pi), chance.uniform(0.3, np.pi / 2)
     red, green, blue = chance.uniform(0.8, 1.0, 3)
     return Light(

@@ -1,8 +1,8 @@
-"""How good a detector is in scenes that it never learned from: `python -m sim.learning evaluate`.
+"""Evaluates a detector in scenes that it was not trained on: `python -m sim.learning evaluate`.
 
-Renders scenes of seeds that training may not use, and prints a report in Markdown; `--picture`
-draws which things are taken for which. `--validation` takes other such scenes: those that choose
-between networks, so that the ones that judge the chosen network have had no say.
+Renders scenes from seeds that training must not use, and prints a report in Markdown; `--picture`
+draws the confusion matrix. `--validation` uses other seeds, for choosing between networks, so that
+the test scenes have no influence on the choice.
 """
 
 import argparse
@@ -33,23 +33,23 @@ from sim.manipulation.registration import fit_pose
 from sim.objects.objects import load_objects
 
 LEAST_REPORTED = 0.02
-"""Confidence from which boxes count for average precision."""
+"""Least confidence of boxes for average precision."""
 LOCATED = 1
-"""Things in each scene, the surest, whose position is measured, too."""
+"""Number of objects in each scene, the most confident ones, whose position error is measured."""
 TIMED = 40
-"""Pictures over which the time of one is taken."""
+"""Number of pictures over which the time per picture is measured."""
 
 
 @dataclass(frozen=True, slots=True)
 class Judgement:
-    """One scene: what was found and is there, and how far off some things were located (mm)."""
+    """The result of one scene: detections and truth, and position errors of some objects (mm)."""
 
     picture: Judged
     errors_mm: tuple[float, ...]
 
 
 def judge(detector: OnnxDetector, scene: Scene) -> Judgement:
-    """Let the detector look at a scene."""
+    """Run the detector on a scene."""
     color = scene.photograph()
     found = detector.find(color, LEAST_REPORTED)
     picture = _judged(found, detector.names, scene)
@@ -58,7 +58,7 @@ def judge(detector: OnnxDetector, scene: Scene) -> Judgement:
 
 
 def _judged(found: Found, names: Sequence[str], scene: Scene) -> Judged:
-    """What was found, in the order of our classes; others are left out."""
+    """Detections and truth with our class indices; detections of other classes are left out."""
     numbers = {name: number for number, name in enumerate(class_names())}
     ours = np.array([numbers.get(name, -1) for name in names], np.int64)[found.classes]
     truths = scene.truths
@@ -74,7 +74,7 @@ def _judged(found: Found, names: Sequence[str], scene: Scene) -> Judged:
 
 
 def _errors(picture: Judged, frame: Frame, scene: Scene) -> Iterator[float]:
-    """Horizontal distance (mm) of each thing found from where it truly is, by depth in its box."""
+    """The horizontal position error (mm) of each object found, located by the depth in its box."""
     height, width = frame.depth.shape
     for edges, score, thing in zip(picture.boxes, picture.scores, match(picture), strict=True):
         if thing < 0 or score < LEAST_CONFIDENCE or not picture.counts[thing]:
@@ -94,7 +94,7 @@ def _errors(picture: Judged, frame: Frame, scene: Scene) -> Iterator[float]:
 
 
 def judge_all(path: Path, seeds: range, workers: int) -> Iterator[Judgement]:
-    """Judge the scenes of these seeds, in their order."""
+    """Judge the scenes of these seeds, in their order, in worker processes."""
     with get_context("spawn").Pool(workers) as pool:
         yield from pool.imap(_judge_seed, ((path, seed) for seed in seeds), chunksize=2)
 
@@ -106,13 +106,13 @@ def _judge_seed(job: tuple[Path, int]) -> Judgement:
 
 @cache
 def _detector(path: Path) -> OnnxDetector:
-    """The detector of this process, which shares the cores with others."""
+    """This process' detector, on one thread, because other processes use the other cores."""
     return OnnxDetector(path, lambda name: (name,), threads=1)
 
 
 @cache
 def _maker() -> tuple[SceneMaker, tempfile.TemporaryDirectory[str]]:
-    """The simulator of this process, and the folder of its patterns."""
+    """This process' simulator, and the folder of its patterns."""
     folder = tempfile.TemporaryDirectory()
     return SceneMaker(load_objects(), Path(folder.name)), folder
 
@@ -121,7 +121,7 @@ def _maker() -> tuple[SceneMaker, tempfile.TemporaryDirectory[str]]:
 
 
 def report(judgements: Sequence[Judgement], milliseconds: float, about: str) -> str:
-    """The figures, in Markdown."""
+    """The report, in Markdown."""
     pictures = [judgement.picture for judgement in judgements]
     classes = by_class(pictures, len(class_names()), LEAST_CONFIDENCE)
     errors = np.array([error for one in judgements for error in one.errors_mm])
@@ -157,7 +157,7 @@ def _recall(classes: Sequence[ClassReport]) -> float:
 
 
 def time_of_one(detector: OnnxDetector) -> float:
-    """Median time (ms) of recognising in one 640 x 480 picture, with all cores."""
+    """Median time (ms) of detection in a 640 x 480 picture, with all cores."""
     picture = np.random.default_rng(0).integers(0, 255, (480, 640, 3), np.uint8)
     times = []
     for _ in range(TIMED):
@@ -168,9 +168,9 @@ def time_of_one(detector: OnnxDetector) -> float:
 
 
 def draw_confusion(table: Ints, names: Sequence[str]) -> str:
-    """The table of `metrics.confusion` as an SVG: rows what is there, columns what it is taken for.
+    """The confusion matrix as an SVG: rows are true classes, columns are predicted ones.
 
-    Shades are shares of the row.
+    Shades are fractions of the row.
     """
     labels = [*names, "nothing"]
     side, left, top = 24, 150, 150
@@ -204,7 +204,7 @@ def draw_confusion(table: Ints, names: Sequence[str]) -> str:
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    """What `python -m sim.learning evaluate` takes."""
+    """Add the options of `python -m sim.learning evaluate`."""
     parser.add_argument("--detector", default="learned", help="learned (default), or a FILE.onnx")
     parser.add_argument("--scenes", type=int, default=500, metavar="N", help="default: 500")
     parser.add_argument("--validation", action="store_true", help="scenes to choose a network by")

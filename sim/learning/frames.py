@@ -1,7 +1,7 @@
-"""Pictures for training: scenes drawn and kept, shard by shard.
+"""Renders pictures for training, and stores them in shards.
 
-A shard is a Parquet file, so what a run has finished stays when it is stopped, and the next run
-into the same folder goes on with what is missing.
+A shard is a Parquet file. If a run is stopped, its finished shards stay, and the next run into the
+same folder makes the missing ones.
 """
 
 import os
@@ -23,12 +23,12 @@ from sim.objects.objects import ObjectModel, load_objects
 from sim.objects.ycb import with_scans
 
 SHARD = 50
-"""Pictures in a file."""
+"""Number of pictures in a shard."""
 SHAPE = (480, 640, 3)
 VALIDATION_SEED = 9_000_000
-"""Seeds from here on choose between networks; no network learns from them."""
+"""Seeds from here on are for choosing between networks; they are not for training."""
 EVALUATION_SEED = 10_000_000
-"""Seeds from here on say how good the chosen one is, and nothing else."""
+"""Seeds from here on are only for evaluating the chosen network."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -39,7 +39,7 @@ class Example:
         color: (480, 640, 3) uint8, RGB, without the camera's flaws.
         boxes: (n, 4) float32: left, top, right, bottom (pixels).
         classes: (n,) int64, indices into `class_names()`.
-        counts: (n,) bool, whether a detector is asked for it.
+        counts: (n,) bool, whether a detector should find each object.
     """
 
     color: NDArray[np.uint8]
@@ -49,16 +49,21 @@ class Example:
 
 
 def class_names() -> tuple[str, ...]:
-    """What is recognised, in the order of the network's outputs."""
+    """The names of the classes, in the order of the network's outputs."""
     return tuple(sorted(load_objects()))
 
 
 def make_shards(
     folder: Path, frames: int, seed: int, workers: int, ycb: Path | None = None
 ) -> Iterator[Path]:
-    """Make the shards that are missing for so many frames of these seeds; yields each when done.
+    """Make the missing shards; yields the path of each when it is done.
 
-    Things look as ours, or as the scans in the folder `ycb`.
+    Args:
+        folder: of the shards.
+        frames: number of pictures.
+        seed: of the first picture; the others have the following seeds.
+        workers: number of processes.
+        ycb: folder of YCB scans to draw instead of our meshes.
 
     Raises:
         InputError: if the folder cannot be written, or the seeds are not for training.
@@ -109,7 +114,7 @@ def _row(scene: Scene) -> dict[str, object]:
 
 
 def shards(folder: Path) -> tuple[Path, ...]:
-    """The shards in a folder, by seed.
+    """The shards in a folder, in order of seeds.
 
     Raises:
         InputError: if there are none.

@@ -1,7 +1,7 @@
-"""What the network should have said, and how wrong it was.
+"""The loss of the detector, and the assignment of its cells to objects.
 
-Cells are assigned to things by task alignment (Feng et al., TOOD, ICCV 2021): those that already
-score and place a thing best learn to be sure of it.
+Cells are assigned to objects by task alignment (Feng et al., TOOD, ICCV 2021): the cells with the
+best scores and boxes for an object are trained to detect it.
 """
 
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ BOX_WEIGHT = 3.0
 
 @dataclass(frozen=True, slots=True)
 class Wanted:
-    """The things in one crop: boxes (n, 4; pixels), classes (n,), and which are asked for (n,)."""
+    """The objects in one crop: boxes (n, 4; pixels), classes (n,), and whether they count (n,)."""
 
     boxes: Tensor
     classes: Tensor
@@ -46,7 +46,14 @@ def generalized_overlap(one: Tensor, other: Tensor) -> Tensor:
 
 
 def loss(boxes: Tensor, logits: Tensor, middles: Tensor, wanted: list[Wanted]) -> Tensor:
-    """How wrong boxes (b, n, 4) and logits (b, n, classes) of cells with these middles are."""
+    """The loss of boxes (b, n, 4; pixels) and logits (b, n, classes).
+
+    Args:
+        boxes: of all cells.
+        logits: of all cells.
+        middles: (n, 2) centres of the cells (pixels).
+        wanted: the objects in each of the b crops.
+    """
     targets = torch.zeros_like(logits)
     weights = torch.ones(logits.shape[:2])
     box_loss = torch.zeros(())
@@ -68,7 +75,7 @@ def loss(boxes: Tensor, logits: Tensor, middles: Tensor, wanted: list[Wanted]) -
 
 
 def _inside(middles: Tensor, boxes: Tensor) -> Tensor:
-    """Which cells (things, n) have their middle in which box."""
+    """(objects, n) whether the centre of each cell is in each box."""
     low = middles[None] - boxes[:, None, :2]
     high = boxes[:, None, 2:] - middles[None]
     return torch.cat((low, high), -1).amin(-1) > 0
@@ -77,7 +84,7 @@ def _inside(middles: Tensor, boxes: Tensor) -> Tensor:
 def _assign(
     boxes: Tensor, logits: Tensor, inside: Tensor, things: Wanted
 ) -> tuple[Tensor, Tensor, Tensor]:
-    """The cells that belong to things, to which, and how sure they should be (in [0, 1])."""
+    """Indices of the cells that have an object, of these objects, and their target scores."""
     overlaps = overlap(boxes[None], things.boxes[:, None]) * inside
     scores = logits[:, things.classes].sigmoid().T
     alignment = scores**SCORE_POWER * overlaps**OVERLAP_POWER

@@ -1,7 +1,7 @@
-"""How good a detector is: average precision, recall and confusions, over arrays of boxes.
+"""Metrics of a detector: average precision, recall and confusion matrix, from arrays of boxes.
 
-Boxes are (n, 4): left, top, right, bottom. Things that do not count (too small, too much covered)
-may be found or not: neither is right or wrong.
+Boxes are (n, 4): left, top, right, bottom. Objects that do not count (too small, or too much
+occluded) may be found or missed: neither is right or wrong.
 """
 
 from collections.abc import Sequence
@@ -14,20 +14,20 @@ from executive.geometry import Floats
 
 Ints = NDArray[np.int64]
 ENOUGH = 0.5
-"""Boxes that overlap at least this much (IoU) are of the same thing."""
+"""Boxes with at least this overlap (IoU) match."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Judged:
-    """One picture: what was found in it, and what is in it.
+    """The detections in a picture, and the truth.
 
     Attributes:
-        boxes: (n, 4) found.
-        scores: (n,) in [0, 1].
-        classes: (n,).
-        true_boxes: (m, 4).
-        true_classes: (m,).
-        counts: (m,) bool, whether it is asked for.
+        boxes: (n, 4) of detections.
+        scores: (n,) their confidences, in [0, 1].
+        classes: (n,) their classes.
+        true_boxes: (m, 4) of objects.
+        true_classes: (m,) their classes.
+        counts: (m,) bool, whether each object counts.
     """
 
     boxes: Floats
@@ -50,9 +50,10 @@ def overlaps(one: Floats, other: Floats) -> Floats:
 
 
 def match(picture: Judged) -> Ints:
-    """For each box found, surest first: the index of the true thing of its class, or -1.
+    """(n,) for each detection, the index of the matching object of its class, or -1.
 
-    Each thing is found once; it takes the box that is offered first and overlaps it most.
+    Detections are matched in order of falling confidence, each to the free object that it overlaps
+    most; an object matches at most one detection.
     """
     found = np.full(len(picture.boxes), -1, np.int64)
     same = picture.classes[:, None] == picture.true_classes[None]
@@ -65,11 +66,13 @@ def match(picture: Judged) -> Ints:
 
 
 def average_precision(right: NDArray[np.bool_], asked: int) -> float:
-    """Area under precision over recall, each precision the best at its recall or beyond.
+    """Area under the precision-recall curve, with interpolated precision.
+
+    Interpolated precision is the best at the same or any higher recall.
 
     Args:
-        right: of each box found, surest first, whether it is right.
-        asked: how many things there are to be found; nan for none.
+        right: whether each detection is right, in order of falling confidence.
+        asked: number of objects to be found; the result is nan if there are none.
     """
     if not asked:
         return float("nan")
@@ -81,7 +84,10 @@ def average_precision(right: NDArray[np.bool_], asked: int) -> float:
 
 @dataclass(frozen=True, slots=True)
 class ClassReport:
-    """How well one class is recognised; recall and precision at the least confidence asked."""
+    """The metrics of one class; recall and precision are at a least confidence.
+
+    `asked` is the number of objects of the class that count.
+    """
 
     asked: int
     average_precision: float
@@ -90,7 +96,7 @@ class ClassReport:
 
 
 def by_class(pictures: Sequence[Judged], classes: int, least: float) -> list[ClassReport]:
-    """A report of each class; boxes less sure than `least` count for average precision only."""
+    """The metrics of each class; `least` is the least confidence for recall and precision."""
     matches = [match(picture) for picture in pictures]
     return [_report(pictures, matches, number, least) for number in range(classes)]
 
@@ -118,10 +124,10 @@ def _report(
 
 
 def confusion(pictures: Sequence[Judged], classes: int, least: float) -> Ints:
-    """Counts (classes + 1, classes + 1): what is there, against what it was taken for.
+    """The confusion matrix (classes + 1, classes + 1): counts by true class and predicted class.
 
-    Boxes are matched whatever their class, the surest first. The last row is what was found where
-    nothing is, the last column what was not found.
+    Boxes are matched regardless of class, in order of falling confidence. The last row counts
+    detections without an object, the last column objects without a detection.
     """
     table = np.zeros((classes + 1, classes + 1), np.int64)
     for picture in pictures:

@@ -1,7 +1,8 @@
 """The detector's network: single-shot, anchor-free, convolutions only.
 
-Features at an eighth and a sixteenth of the picture; each cell of each says what is in its middle
-and how far the edges of that thing's box are. It takes pictures of any size that 16 divides.
+It has feature maps at an eighth and a sixteenth of the picture's resolution. Each cell predicts the
+class of the object at its centre, and the distances to the edges of its box. The sides of pictures
+must be multiples of 16.
 """
 
 import torch
@@ -24,10 +25,10 @@ class Block(nn.Sequential):
 
 
 class Residual(nn.Module):
-    """Two convolutions, with half as many channels between them, beside a straight way.
+    """Two convolutions, with half as many channels between them, and a skip connection.
 
-    It begins by changing nothing (Goyal et al., arXiv:1706.02677), so that a network which already
-    knows something can be given more of them.
+    It is the identity at first (Goyal et al., arXiv:1706.02677), so that more of them can be added
+    to a trained network.
     """
 
     def __init__(self, channels: int) -> None:
@@ -38,12 +39,12 @@ class Residual(nn.Module):
         self.way = nn.Sequential(Block(channels, channels // 2), last)
 
     def forward(self, x: Tensor) -> Tensor:
-        """Add what the convolutions find."""
+        """Add the output of the convolutions to the input."""
         return x + self.way(x)
 
 
 class Surroundings(nn.Module):
-    """Spatial pyramid pooling: lets each cell know what is within 5, 9 and 13 cells."""
+    """Spatial pyramid pooling, with windows of 5, 9 and 13 cells."""
 
     def __init__(self, channels: int) -> None:
         """Keep the number of channels."""
@@ -61,10 +62,10 @@ class Surroundings(nn.Module):
 
 
 class Network(nn.Module):
-    """Backbone, a path back up, and two heads."""
+    """Backbone, a top-down path, and two heads."""
 
     def __init__(self, classes: int) -> None:
-        """Recognise so many classes."""
+        """Make a network for this number of classes."""
         super().__init__()
         self.quarter = nn.Sequential(Block(3, 32, size=6, stride=4), Residual(32))
         self.eighth = nn.Sequential(Block(32, 64, stride=2), Residual(64), Residual(64))
@@ -84,8 +85,8 @@ class Network(nn.Module):
     def forward(self, pictures: Tensor) -> list[Tensor]:
         """For pictures (b, 3, h, w) in [0, 1]: per stride (b, 4 + classes, h / s, w / s).
 
-        The first four are left, top, right, bottom of the box from the middle of the cell, in
-        strides, before softplus; then the logits of the classes.
+        The first four channels are the distances from the centre of the cell to left, top, right
+        and bottom of the box, in strides, before softplus; then the logits of the classes.
         """
         fine = self.eighth(self.quarter(pictures))
         coarse = self.sixteenth(fine)
@@ -94,7 +95,7 @@ class Network(nn.Module):
 
 
 def cells(height: int, width: int) -> tuple[Tensor, Tensor]:
-    """Middles (n, 2; x and y in pixels) and strides (n, 1) of all cells of a picture this large."""
+    """Centres (n, 2; x and y in pixels) and strides (n, 1) of all cells of a picture."""
     middles, strides = [], []
     for stride in STRIDES:
         rows, columns = height // stride, width // stride
@@ -111,20 +112,20 @@ def flatten(maps: list[Tensor]) -> tuple[Tensor, Tensor]:
 
 
 def boxes_of(distances: Tensor, middles: Tensor, strides: Tensor) -> Tensor:
-    """Left, top, right, bottom (b, n, 4; pixels)."""
+    """Boxes (b, n, 4; left, top, right, bottom in pixels)."""
     low = middles - distances[..., :2] * strides
     high = middles + distances[..., 2:] * strides
     return torch.cat((low, high), -1)
 
 
 class Exported(nn.Module):
-    """The network as an ONNX file has it: YOLOv8's output (1, 4 + classes, n).
+    """The network for export, with YOLOv8's output (1, 4 + classes, n).
 
-    Middle x and y, width and height in pixels, then the probabilities of the classes.
+    The channels are centre x and y, width and height in pixels, then the classes' probabilities.
     """
 
     def __init__(self, network: Network, height: int, width: int) -> None:
-        """For pictures of one size."""
+        """Wrap a network for pictures of one size (pixels)."""
         super().__init__()
         self.network = network
         middles, strides = cells(height, width)
@@ -132,7 +133,7 @@ class Exported(nn.Module):
         self.register_buffer("strides", strides.T[None])
 
     def forward(self, pictures: Tensor) -> Tensor:
-        """Recognise."""
+        """Detect in a picture (1, 3, h, w) in [0, 1]."""
         rows = torch.cat([one.flatten(2) for one in self.network(pictures)], 2)
         distances = functional.softplus(rows[:, :4]) * self.strides
         low, high = distances[:, :2], distances[:, 2:]

@@ -1,8 +1,8 @@
-"""Scenes drawn by chance, as the robot's camera may see them, and the truth about what is in them.
+"""Random scenes, as the robot's camera may see them, with ground truth.
 
-A scene is a piece of furniture with things on it, before a wall or not, with other furniture
-around. The camera looks as the robot does when it searches, or from anywhere. One seed gives one
-scene.
+A scene is a piece of furniture with objects on it, with or without a wall behind and other
+furniture beside it. The camera has a pose of the robot when it searches, or a random one. The scene
+follows from its seed.
 """
 
 from collections.abc import Iterator, Mapping
@@ -31,11 +31,12 @@ from sim.objects.objects import ObjectModel
 from sim.tools.generation import SIZES
 
 FEWEST_PIXELS = 120
-"""A thing of which fewer pixels show is not asked for."""
+"""An object with fewer visible pixels does not count."""
 LEAST_SHARE = 0.35
-"""Nor is one of which a smaller share shows: the rest is covered or outside of the picture."""
+"""An object does not count either if a smaller fraction of it is visible, because it is occluded or
+partly outside the picture."""
 WIDE = pinhole(320, 240, 2 * float(np.arctan(2 * np.tan(np.radians(65.0) / 2))))
-"""Sees twice as far to each side as LOOKING, a pixel of it being 4 x 4 of that camera's."""
+"""A camera with twice the width of view of LOOKING; one pixel is 4 x 4 pixels of that camera."""
 _WIDE_PIXEL = (LOOKING.fx / WIDE.fx) ** 2
 _GAPS_M = (0.005, 0.08)
 _TRIES = 30
@@ -45,7 +46,7 @@ _WALL_M = 2.6
 
 @dataclass(frozen=True, slots=True)
 class Truth:
-    """One thing in a picture: its visible pixels, and how many there would be of it alone."""
+    """An object in a picture: its visible pixels, and their number if nothing hid it."""
 
     name: str
     box: Box
@@ -55,19 +56,19 @@ class Truth:
 
     @property
     def counts(self) -> bool:
-        """Whether a detector is asked for it; the same rule in training and evaluation."""
+        """Whether a detector should find it; the same rule holds in training and evaluation."""
         return self.visible >= FEWEST_PIXELS and self.visible >= LEAST_SHARE * self.alone
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Scene:
-    """A picture and what is in it.
+    """A picture and its ground truth.
 
     Attributes:
-        seed: draws it again.
-        frame: with the colours as rendered, without the camera's flaws.
-        truths: of every thing of which at least one pixel shows.
-        bodies: (height, width) int32, one plus the index into `truths`; 0 is anything else.
+        seed: of the scene.
+        frame: the picture as rendered, without noise and exposure.
+        truths: all objects with at least one visible pixel.
+        bodies: (height, width) int32, one plus the index into `truths`; 0 for anything else.
     """
 
     seed: int
@@ -76,21 +77,21 @@ class Scene:
     bodies: NDArray[np.int32]
 
     def photograph(self) -> NDArray[np.uint8]:
-        """The colours as a real camera might give them, with its flaws drawn by the seed."""
+        """The colours (height, width, 3) with random exposure, white balance and noise."""
         return through_the_lens(self.frame.color, np.random.default_rng((self.seed, 1)))
 
 
 class SceneMaker:
-    """Draws scenes in a simulator of its own."""
+    """Makes scenes in a simulator of its own."""
 
     def __init__(self, models: Mapping[str, ObjectModel], folder: Path) -> None:
-        """Use these things; patterns are written into the folder."""
+        """Use these objects; patterns are written into the folder."""
         self._models = models
         self._patterns = write_patterns(folder)
         self._client = connect()
 
     def make(self, seed: int) -> Scene:
-        """Draw one scene."""
+        """Make the scene of a seed."""
         chance = np.random.default_rng(seed)
         self._client.resetSimulation()
         piece = _draw_piece(chance, (0.0, 0.0, 0.0))
@@ -107,13 +108,13 @@ class SceneMaker:
         return Scene(seed, frame, *self._truths(seen, pose, by_body, standing))
 
     def close(self) -> None:
-        """Free the simulator."""
+        """Close the simulator."""
         self._client.disconnect()
 
-    # --- what is there ---
+    # --- room and objects ---
 
     def _build_room(self, piece: Furniture, chance: Generator) -> None:
-        """Floor, walls, the furniture and what stands beside and behind it."""
+        """Build floor, walls, the furniture and its surroundings."""
         back = -piece.size[0] / 2 - (chance.uniform(0.03, 0.1) if chance.random() < 0.6 else 2.5)
         floor = box((_ROOM, _ROOM, 0.1), (back + _ROOM / 2, 0.0, -0.05), (0.0, 0.0, 0.0, 1.0))
         fixtures: list[tuple[Shape, ...]] = [(floor,), (_wall((0.1, _ROOM), back - 0.05, 0.0),)]
@@ -134,13 +135,13 @@ class SceneMaker:
                 self._put(beside.shapes(), Pose((x, left * gap, 0.0)), chance)
 
     def _put(self, shapes: tuple[Shape, ...], pose: Pose, chance: Generator) -> None:
-        """A fixture, three times of four in other colours than its own."""
+        """Create a fixture, in three of four cases with random colours."""
         body = create_body(self._client, shapes, pose)
         if shapes[0].color[0] == 0.0 or chance.random() < 0.75:
             dress(self._client, body, len(shapes), self._patterns, chance)
 
     def _scatter(self, piece: Furniture, chance: Generator) -> Iterator[tuple[str, Pose]]:
-        """Names and poses of things on all surfaces, some close together; and foreign things."""
+        """Put unknown objects on all surfaces; yield names and poses of known ones for them."""
         names = list(chance.permutation(sorted(self._models)))
         for surface in piece.surfaces():
             taken: list[tuple[float, float, float]] = []
@@ -165,7 +166,7 @@ class SceneMaker:
         taken: list[tuple[float, float, float]],
         chance: Generator,
     ) -> None:
-        """A thing that no detector should know: a plate, a vase or a book."""
+        """Put an object that is no class of the detector on a surface: plate, vase or book."""
         kind = chance.choice(["plate", "vase", "book"])
         low, high = {
             "plate": ((0.16, 0.16, 0.012), (0.28, 0.28, 0.03)),
@@ -191,10 +192,10 @@ class SceneMaker:
         turn = (0.0, 0.0, float(np.sin(yaw / 2)), float(np.cos(yaw / 2)))
         self._put((shape,), Pose(piece.to_map((*spot, surface.center[2])), turn), chance)
 
-    # --- who looks ---
+    # --- camera ---
 
     def _target(self, piece: Furniture, things: list[Pose], chance: Generator) -> Vector3:
-        """Where to look: where the robot does when it searches, or at a thing."""
+        """The point to look at: as the robot does when it searches, or at an object."""
         surface = piece.surfaces()[chance.integers(len(piece.surfaces()))]
         x, _, z = surface.center
         usual = (x + surface.length_x / 2 - VIEW_DEPTH_M, 0.0, z + VIEW_HEIGHT_M)
@@ -204,7 +205,7 @@ class SceneMaker:
         return float(x), float(y), float(z)
 
     def _camera_pose(self, piece: Furniture, target: Vector3, chance: Generator) -> Pose:
-        """Two times of three as the robot's; then the robot is there, and may be in the picture."""
+        """The camera's pose: in two of three cases on a robot, which may be in the picture."""
         if chance.random() < 0.33:
             return _free_pose(target, chance)
         ahead = piece.size[0] / 2 + STAND_OFF_M + chance.normal(0.0, 0.04)
@@ -237,7 +238,7 @@ class SceneMaker:
         return tuple(truths), bodies
 
     def _pixels_alone(self, model: ObjectModel, pose: Pose, eye: Pose) -> int:
-        """How many pixels it would have if nothing were before it and the picture were larger."""
+        """The number of pixels if nothing hid the object, and the picture were large enough."""
         body = create_object(self._client, model, pose)
         seen = render(self._client, eye, WIDE)
         self._client.removeBody(body)
@@ -245,14 +246,14 @@ class SceneMaker:
 
 
 def extent(mask: NDArray[np.bool_]) -> Box:
-    """The smallest box around the pixels of a mask that has some."""
+    """The bounding box of a mask, which must not be empty."""
     rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
     top, left = int(rows[0]), int(columns[0])
     return Box(left, top, int(columns[-1]) - left + 1, int(rows[-1]) - top + 1)
 
 
 def looking_at(eye: Vector3, target: Vector3, roll: float = 0.0) -> Pose:
-    """The pose in `map` of an optical frame at `eye` that has `target` in the middle."""
+    """The pose in `map` of an optical frame at `eye` that looks at `target`; `roll` in radians."""
     forward = np.subtract(target, eye) / np.linalg.norm(np.subtract(target, eye))
     right = np.cross(forward, (0.0, 0.0, 1.0))
     right /= np.linalg.norm(right)
@@ -261,7 +262,7 @@ def looking_at(eye: Vector3, target: Vector3, roll: float = 0.0) -> Pose:
 
 
 def _free_pose(target: Vector3, chance: Generator) -> Pose:
-    """Somewhere before a target, at the height of a robot's or a person's eyes."""
+    """A random pose in front of a target, at the eye height of a robot or a person."""
     away, around = chance.uniform(0.55, 1.9), chance.uniform(-1.2, 1.2)
     eye = (
         target[0] + float(away * np.cos(around)),
@@ -297,7 +298,7 @@ def _free_spot(
     radius: float,
     chance: Generator,
 ) -> tuple[float, float] | None:
-    """Where on the surface a circle of `radius` (metres) fits beside those that are taken."""
+    """A random free spot for a circle of `radius` (metres) on a surface; None if none is found."""
     reach = np.array([surface.length_x, surface.length_y]) / 2 - min(radius, 0.08)
     middle = np.array(surface.center[:2])
     if (reach <= 0).any():

@@ -1,6 +1,6 @@
-"""Training the detector on crops of rendered frames, and writing it as an ONNX file.
+"""Trains the detector on crops of rendered frames, and exports it as an ONNX file.
 
-The file has the names of the classes in its metadata, so that it needs none beside it.
+The names of the classes are in the file's metadata.
 """
 
 import copy
@@ -23,20 +23,20 @@ from sim.learning.loss import Wanted, loss
 from sim.learning.network import Exported, Network, boxes_of, cells, flatten
 
 WARM_UP = 0.02
-"""Share of the training in which the rate of learning rises; then it falls as a cosine."""
+"""Fraction of the training in which the learning rate rises; after that it falls as a cosine."""
 DECAY = 0.02
 SMOOTHING = 0.998
-"""Share that a step leaves of the averaged weights, which are what is exported."""
+"""Decay of the moving average of the weights; the averaged weights are exported."""
 SAVE_S = 120.0
 SAY_STEPS = 50
 HEIGHT, WIDTH = 480, 640
 
 
 class Trainer:
-    """The network with all that is needed to go on training it."""
+    """The network and the state of its training."""
 
     def __init__(self, steps: int, rate: float) -> None:
-        """Plan for so many steps in all, the highest rate of learning being `rate`."""
+        """Train for `steps` steps in all, with the highest learning rate `rate`."""
         self.network = Network(len(class_names())).to(memory_format=torch.channels_last)
         self.average = copy.deepcopy(self.network).eval()
         self.optimizer = torch.optim.AdamW(_groups(self.network), lr=rate)
@@ -62,14 +62,14 @@ class Trainer:
         return float(wrong.detach())
 
     def _schedule(self) -> float:
-        """Share of the highest rate at this step."""
+        """The learning rate at this step, as a fraction of the highest."""
         done = self.step / self.steps
         if done < WARM_UP:
             return (done + 1e-4) / WARM_UP
         return float(0.01 + 0.99 * (1 + np.cos(np.pi * (done - WARM_UP) / (1 - WARM_UP))) / 2)
 
     def _follow(self) -> None:
-        """Let the averaged weights follow the trained ones, faster at the beginning."""
+        """Update the moving average of the weights, which is faster at the beginning."""
         keep = min(SMOOTHING, (1 + self.step) / (20 + self.step))
         trained = self.network.state_dict()
         with torch.no_grad():
@@ -80,7 +80,7 @@ class Trainer:
                     value.copy_(trained[name])
 
     def save(self, path: Path) -> None:
-        """Write a checkpoint; a killed run leaves the one before."""
+        """Write a checkpoint atomically; if the process is killed, the old one stays."""
         beside = path.with_suffix(".new")
         state = {
             "step": self.step,
@@ -92,7 +92,7 @@ class Trainer:
         beside.rename(path)
 
     def load(self, path: Path, weights_only: bool = False) -> None:
-        """Go on from a checkpoint, or only start with its weights."""
+        """Load a checkpoint; with `weights_only`, begin a new training with its weights."""
         state = torch.load(path)
         self.network.load_state_dict(state["average" if weights_only else "network"])
         self.average.load_state_dict(state["average"])
@@ -102,7 +102,7 @@ class Trainer:
 
 
 def _groups(network: nn.Module) -> list[dict[str, Any]]:
-    """Weights of convolutions decay, biases and normalisations do not."""
+    """Parameter groups: weight decay for weights of convolutions, but not for other parameters."""
     decaying = [p for p in network.parameters() if p.ndim > 1]
     others = [p for p in network.parameters() if p.ndim <= 1]
     return [
@@ -112,7 +112,7 @@ def _groups(network: nn.Module) -> list[dict[str, Any]]:
 
 
 def export(network: Network, path: Path) -> None:
-    """Write the ONNX file, its class names in the metadata as Ultralytics' files have them."""
+    """Write the ONNX file, with class names in its metadata as in Ultralytics' files."""
     model = Exported(copy.deepcopy(network).float(), HEIGHT, WIDTH).eval()
     picture = torch.zeros(1, 3, HEIGHT, WIDTH)
     torch.onnx.export(
@@ -134,7 +134,7 @@ def export(network: Network, path: Path) -> None:
 
 
 def forget_origins(graph: onnx.GraphProto) -> None:
-    """Leave out where in whose source files each part comes from: paths of this machine."""
+    """Remove the source locations of all parts: they contain paths of this machine."""
     ends = (*graph.input, *graph.output, *graph.value_info)
     for part in (graph, *graph.node, *graph.initializer, *ends):
         del part.metadata_props[:]
@@ -142,16 +142,16 @@ def forget_origins(graph: onnx.GraphProto) -> None:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """What to train on, for how long, and where the results go.
+    """The settings of a training.
 
     Attributes:
         frames: the folder of the shards.
-        out: the ONNX file.
-        checkpoint: is gone on from if it is there, and written every two minutes.
-        start: a checkpoint whose weights a new training starts with.
-        crops: to learn from, in all.
-        batch: crops a step.
-        rate: the highest rate of learning.
+        out: the ONNX file to write.
+        checkpoint: written every two minutes; if it exists, the training continues from it.
+        start: a checkpoint with initial weights for a new training.
+        crops: number of crops in all.
+        batch: number of crops per step.
+        rate: the highest learning rate.
         seed: of weights and crops.
     """
 
@@ -166,7 +166,7 @@ class Plan:
 
 
 def train(plan: Plan) -> Iterator[str]:
-    """Train and export; yields how it goes.
+    """Train and export; yields messages about the progress.
 
     Raises:
         InputError: if there are no frames.

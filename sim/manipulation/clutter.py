@@ -1,4 +1,4 @@
-"""What the depth camera sees standing on a piece of furniture."""
+"""Finds objects on furniture in the points of the depth camera."""
 
 from dataclasses import dataclass
 
@@ -9,15 +9,16 @@ from sim.home.furniture import Furniture, Surface
 
 CELL_M = 0.03
 _ABOVE_M = 0.01
-"""Lower than this above a surface, what is seen is the surface."""
+"""Points lower than this above a surface belong to the surface."""
 _EDGE_M = 0.02
-"""Nearer than this to the edge of a surface, it may be what is behind."""
+"""Points nearer than this to the edge of a surface are ignored: they may be of something behind."""
 _FEW_POINTS = 2
+"""Fewer points than this in a column are noise."""
 
 
 @dataclass(frozen=True, slots=True)
 class Column:
-    """A square column in which something stands: middle (x, y), foot and top in `map` (metres)."""
+    """An occupied square column: centre (x, y), foot and top in `map` (metres)."""
 
     x: float
     y: float
@@ -26,16 +27,16 @@ class Column:
 
 
 def over(piece: Furniture, seen: Floats) -> Floats:
-    """Which of the points (n, 3) in `map` are over a piece of furniture, at whatever height."""
+    """The points (m, 3), of points (n, 3) in `map`, over a piece of furniture at any height."""
     half = np.array(piece.size[:2]) / 2 - _EDGE_M
     points: Floats = seen[(np.abs(_from_furniture(piece, seen)[:, :2]) < half).all(axis=1)]
     return points
 
 
 def rising_points(piece: Furniture, surface: Surface, seen: Floats) -> Floats:
-    """What of the points (n, 3) in `map` rises above the surface.
+    """The points (m, 3), of points (n, 3) in `map`, above a surface and below the next board.
 
-    In a frame at the middle of the surface, with the furniture's axes (metres).
+    They are in a frame at the centre of the surface, with the furniture's axes (metres).
     """
     local = _over_surface(piece, surface, seen)
     height = local[:, 2]
@@ -43,7 +44,7 @@ def rising_points(piece: Furniture, surface: Surface, seen: Floats) -> Floats:
 
 
 def level_points(piece: Furniture, surface: Surface, seen: Floats) -> Floats:
-    """What of the points (n, 3) in `map` is the surface itself, in the same frame."""
+    """The points (m, 3), of points (n, 3) in `map`, of the surface itself, in the same frame."""
     local = _over_surface(piece, surface, seen)
     return local[np.abs(local[:, 2]) < _ABOVE_M]
 
@@ -56,7 +57,7 @@ def _over_surface(piece: Furniture, surface: Surface, seen: Floats) -> Floats:
 
 
 def columns(piece: Furniture, seen: Floats) -> list[Column]:
-    """Everything that stands on a piece of furniture, as columns up to the highest point seen."""
+    """All that stands on a piece of furniture, as columns up to the highest visible point."""
     found = []
     for surface in piece.surfaces():
         points = rising_points(piece, surface, seen)
@@ -71,7 +72,7 @@ def columns(piece: Furniture, seen: Floats) -> list[Column]:
 
 
 def _from_furniture(piece: Furniture, points: Floats) -> Floats:
-    """Points (n, 3) of `map` in the frame of the furniture."""
+    """Transform points (n, 3) from `map` to the furniture frame."""
     x, y, yaw = piece.pose
     cos, sin = np.cos(yaw), np.sin(yaw)
     back = np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])

@@ -1,4 +1,4 @@
-"""Many small least-squares problems solved together, with a loss that bears with outliers."""
+"""Solves many small least-squares problems at once, with a loss that is robust to outliers."""
 
 from collections.abc import Callable
 
@@ -8,34 +8,34 @@ from numpy.typing import NDArray
 from executive.geometry import Floats
 
 _NOISE_M = 0.003
-"""What is farther off than this counts less and less (soft L1 loss)."""
+"""Scale of the soft L1 loss: larger residuals have less weight."""
 _SCALE: Floats = np.array([0.01, 0.01, 0.01, 0.2])
-"""Steps of x, y, z and yaw that change about as much (metres, radians)."""
+"""Scale of x, y, z and yaw: changes by these have about the same effect (metres, radians)."""
 _DAMPING, _WORSE, _BETTER = 1e-3, 10.0, 0.2
-"""Of the first step, and how it changes after one that was none or a good one."""
+"""Damping of the first step, and its factors after a rejected and after an accepted step."""
 _LEAST_DAMPING, _LEAST_BEND = 1e-8, 1e-9
-"""Keep a step finite in what nothing depends on, as the yaw of a ball."""
+"""Keep steps finite along parameters without effect, such as the yaw of a ball."""
 _LEAST_GAIN = 1e-5
-"""The share of its cost that a step takes off at least, or it was the last."""
+"""A fit ends when a step reduces its cost by less than this fraction."""
 _LEAST_STEP = 1e-3
-"""And how long it is at least, in steps of `_SCALE`."""
+"""A fit also ends when its step is smaller than this, in units of `_SCALE`."""
 Off = Callable[[Floats, NDArray[np.intp]], tuple[Floats, Floats]]
 
 
 def least_squares(
     off: Off, starts: Floats, which: NDArray[np.intp], steps: int
 ) -> tuple[Floats, Floats]:
-    """Fits (x, y, z, yaw) from each start, by Levenberg's and Marquardt's method.
+    """Fit (x, y, z, yaw) from each start, with the Levenberg-Marquardt method.
 
     Args:
-        off: how far things are off (g, n) and the derivatives (g, n, 4), for some guesses (g, 4)
-            and what each of them is of (g,).
-        starts: guesses (g, 4).
-        which: what each of them is of (g,); handed to `off`.
-        steps: at most.
+        off: returns the residuals (g, n) and their derivatives (g, n, 4), for guesses (g, 4) and
+            the number of the problem (g,) that each belongs to.
+        starts: start values (g, 4).
+        which: the number of the problem (g,) of each start; passed to `off`.
+        steps: the most steps.
 
     Returns:
-        The fits (g, 4), and what each costs (g,).
+        The fits (g, 4) and their costs (g,).
     """
     fits, left = starts.copy(), np.arange(len(starts))
     costs, slopes, bends = _quadratic(*off(fits, which))
@@ -62,7 +62,7 @@ def least_squares(
 
 
 def _quadratic(off: Floats, derivatives: Floats) -> tuple[Floats, Floats, Floats]:
-    """Costs (g,) with their slopes (g, 4) and bends (g, 4, 4), in steps of `_SCALE`."""
+    """Costs (g,), gradients (g, 4) and approximate Hessians (g, 4, 4), in units of `_SCALE`."""
     derivatives = derivatives * _SCALE
     square = (off / _NOISE_M) ** 2
     root = np.sqrt(1 + square)

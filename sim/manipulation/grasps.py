@@ -1,8 +1,8 @@
-"""Where a two-finger hand can take a known thing, from its shape alone.
+"""Finds grasps of a known object for a two-finger hand, from its shapes alone.
 
-For each orientation of the hand the thing is cut by lines along the way of the fingers. A stretch
-of a line that is inside the thing, free on both sides and not too long is what two fingers can
-straddle: the whole of a box, the wall of a mug, the handle of a pitcher.
+For each orientation of the hand, the object is cut by lines along the closing direction of the
+fingers. Two fingers can grasp a section of a line that is inside the object, free on both sides and
+not too long: all of a box, the wall of a mug, the handle of a pitcher.
 """
 
 from collections.abc import Iterable, Iterator
@@ -21,40 +21,42 @@ from sim.objects.objects import ObjectModel
 from sim.objects.solids import sample_surface, signed_distance
 
 WIDEST = 2 * FINGER_TRAVEL - 0.0045
-"""The widest stretch that the open fingers pass on both sides (metres)."""
+"""The widest section that fits between the open fingers (metres)."""
 NARROWEST = 0.003
+"""The narrowest section that the fingers can hold (metres)."""
 TIP = 0.0075
-"""From the point between the pads to the tips of the fingers (metres)."""
+"""Distance from the point between the pads to the finger tips (metres)."""
 PALM = 0.037
-"""From the point between the pads back to the palm (metres)."""
+"""Distance from the point between the pads back to the palm (metres)."""
 _OPENING = 0.024
-"""How much wider than the thing the fingers are opened, if they can."""
+"""How much wider than the section the fingers open, if they can (metres)."""
 _PAD_HALF_WIDTH, _FINGER_THICKNESS, _PAD_UP = 0.009, 0.022, 0.010
 _MARGIN = 0.003
-"""For errors of position: at least this much air around the fingers (metres)."""
+"""Least free space around the fingers, for errors of position (metres)."""
 _PAD_GIVE = 0.003
-"""What is this much farther from the middle than the first contact still touches the pad."""
+"""The soft pad touches points up to this far behind the first contact (metres)."""
 _FULL_PAD = 12
-"""Surface points that a pad covers at least where it lies flat."""
+"""Least number of surface points under a pad that lies flat."""
 _LOWEST_TIP, _EASY_TIP = 0.0025, 0.012
-"""Finger tips do not go lower over what the thing stands on (metres), and better not that low."""
+"""Least height of the finger tips above the support, and the height below which a grasp costs extra
+(metres)."""
 _FACING = 0.1
-"""Normals that point less than this towards the finger belong to other sides."""
+"""Points whose normal has a smaller component towards the finger than this are on other sides."""
 _WITHIN_FRICTION = 0.85
-"""Cosine of the angle between surface normal and closing direction at which fingers hold."""
+"""Least cosine of the angle between surface normal and closing direction for a firm hold."""
 _ALIKE_M, _ALIKE_TURN = 0.02, np.radians(20.0)
-"""Grasps nearer to one another than this (metres, radians) are alike; so are swapped fingers."""
+"""Grasps that differ by less than this (metres, radians) are alike; so are swapped fingers."""
 _PALM_HALF_SIZE = (0.025, 0.105)
 _STEP_X, _STEP_Y, _STEP_Z = 0.008, 0.001, 0.004
 _DEEPEST = 0.06
 Span = tuple[float, float]
 LIGHTEST_GRIP_N, GRIP_N_KG = 5.0, 55.0
-"""How hard each finger presses: firmly for what is heavy, gently for what is light or thin."""
+"""Force of each finger: a constant, and a part per kilogram of the object."""
 TWIST_M = 0.004
-"""And firmly for what is taken far from its middle of mass: two pads that press with a force resist
-a torque of twice the force times this."""
+"""Grasps far from the centre of mass need more force: two pads that press with a force resist a
+torque of twice the force times this."""
 TILTS = tuple(np.radians((0.0, 15.0, 30.0, 45.0, 60.0, 90.0)))
-"""From straight down to level, away from the robot (radians), in order of preference."""
+"""Tilts of the hand from straight down to level, away from the robot, in order of preference."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +68,7 @@ class HandPose:
 
     @property
     def approach(self) -> Floats:
-        """Unit vector in `map` along which the hand reaches out."""
+        """Unit vector (3,) in `map` that points out of the hand."""
         return np.asarray(self.rotation.apply((0.0, 0.0, 1.0)))
 
     def shifted(self, offset: Floats) -> "HandPose":
@@ -76,7 +78,13 @@ class HandPose:
 
 @dataclass(frozen=True, slots=True)
 class Grasp:
-    """Where the hand closes, how far it is open before, and how poor that is (0 is ideal)."""
+    """A grasp.
+
+    Attributes:
+        hand: the pose at which the hand closes.
+        gap: how far the fingers are open before (metres).
+        cost: the lower, the better; 0 is ideal.
+    """
 
     hand: HandPose
     gap: float
@@ -84,24 +92,24 @@ class Grasp:
 
     @property
     def hands(self) -> tuple[HandPose, HandPose]:
-        """As it is, and turned by half a circle about the way it points: both fingers are alike."""
+        """The pose, and the pose turned by half a circle about z: both fingers are alike."""
         turned = self.hand.rotation * Rotation.from_euler("z", np.pi)
         return self.hand, HandPose(self.hand.position, turned)
 
 
 def hand_rotation(yaw: float, tilt: float) -> Rotation:
-    """The hand pointing down, its x axis to `yaw`, tilted up by `tilt` towards there (radians)."""
+    """The hand pointing down with its x axis to `yaw`, then tilted up by `tilt` towards there."""
     return Rotation.from_euler("ZYX", (yaw, -tilt, np.pi))
 
 
 def find_grasps(model: ObjectModel, pose: Pose, facing: float, tilt: float) -> list[Grasp]:
-    """Grasps of a thing that stands at `pose` in `map`, best first.
+    """Grasps of an object, the best first.
 
     Args:
-        model: its shape.
-        pose: where it stands.
-        facing: yaw in `map` that the robot faces; hands that are not level may have any yaw.
-        tilt: of the hand, one of TILTS (radians).
+        model: the object.
+        pose: its pose in `map`.
+        facing: the robot's yaw in `map`; the hand's yaw is within a quarter turn of it.
+        tilt: tilt of the hand, one of TILTS (radians).
     """
     found = [
         grasp
@@ -112,7 +120,7 @@ def find_grasps(model: ObjectModel, pose: Pose, facing: float, tilt: float) -> l
 
 
 def varied(grasps: Iterable[Grasp], count: int) -> list[Grasp]:
-    """The first grasps, at most so many, without those that are much like one before them."""
+    """The first `count` grasps, without those that are alike an earlier one."""
     kept: list[Grasp] = []
     for grasp in grasps:
         if len(kept) == count:
@@ -130,7 +138,7 @@ def _alike(one: HandPose, other: HandPose) -> bool:
 
 
 def _yaws(pose: Pose, facing: float, tilt: float) -> Iterator[float]:
-    """Yaws in steps of 15 degrees with the thing's own axes among them."""
+    """Yaws of the hand in steps of 15 degrees, aligned with the object's axes."""
     own = Rotation.from_quat(pose.orientation).as_euler("ZYX")[0]
     for step in range(24):
         away = np.remainder(own + step * np.pi / 12 - facing + np.pi, 2 * np.pi) - np.pi
@@ -139,7 +147,7 @@ def _yaws(pose: Pose, facing: float, tilt: float) -> Iterator[float]:
 
 
 def _straddles(model: ObjectModel, pose: Pose, rotation: Rotation) -> Iterator[Grasp]:
-    """All stretches that the hand can take in this orientation."""
+    """All grasps with this orientation of the hand."""
     turn = Rotation.from_quat(pose.orientation)
     surface, outward = sample_surface(model.shapes)
     to_hand = rotation.inv() * turn
@@ -181,7 +189,7 @@ def _straddles(model: ObjectModel, pose: Pose, rotation: Rotation) -> Iterator[G
 
 
 def _stretches(inside: NDArray[np.bool_], ys: Floats) -> list[list[list[Span]]]:
-    """Start and end (metres along y) of each run of points inside the thing, for each line."""
+    """Start and end (metres along y) of each section inside the object, by x, z and line."""
     edges = np.diff(np.pad(inside, ((0, 0), (0, 0), (1, 1))).astype(np.int8), axis=-1)
     half = _STEP_Y / 2
     return [
@@ -200,7 +208,10 @@ def _stretches(inside: NDArray[np.bool_], ys: Floats) -> list[list[list[Span]]]:
 
 
 def _wholes(runs: list[Span], model: ObjectModel) -> Iterator[Span]:
-    """What may be between the fingers: runs and what they enclose; of hollow things one wall."""
+    """Spans that can be between the fingers: sections and all between them, or only one wall.
+
+    Objects with other grasps than `top` are taken by one wall.
+    """
     if model.grasp == "top":
         for first, last in combinations_with_replacement(runs, 2):
             yield first[0], last[1]
@@ -209,7 +220,14 @@ def _wholes(runs: list[Span], model: ObjectModel) -> Iterator[Span]:
 
 
 def _room(points: Floats, middle: Floats, width: float, gap: float) -> bool:
-    """Whether palm and fingers, while they close, would hit the thing beside the stretch."""
+    """Whether palm and fingers can close without hitting the object beside the span.
+
+    Args:
+        points: (n, 3) surface points of the object in the hand's axes.
+        middle: (3,) the point between the pads.
+        width: of the span (metres).
+        gap: opening of the fingers before they close (metres).
+    """
     x, y, z = np.abs(points[:, 0] - middle[0]), points[:, 1] - middle[1], points[:, 2] - middle[2]
     palm = (x < _PALM_HALF_SIZE[0]) & (np.abs(y) < _PALM_HALF_SIZE[1]) & (z < -PALM)
     beside = (np.abs(y) > width / 2 + _MARGIN) & (np.abs(y) < gap / 2 + _FINGER_THICKNESS)
@@ -218,7 +236,7 @@ def _room(points: Floats, middle: Floats, width: float, gap: float) -> bool:
 
 
 def _grip(points: Floats, normals: Floats, middle: Floats, width: float) -> float:
-    """How well the pads would hold: 1 if all of both lies flat on the thing, 0 if it would slip."""
+    """Quality of the contacts: 1 if both pads lie flat on the object, 0 if it would slip."""
     x, z = np.abs(points[:, 0] - middle[0]), points[:, 2] - middle[2]
     opposite = (x < _PAD_HALF_WIDTH) & (z > -_PAD_UP) & (z < TIP)
     worst = 1.0
@@ -233,7 +251,7 @@ def _grip(points: Floats, normals: Floats, middle: Floats, width: float) -> floa
 
 
 def grip_force(model: ObjectModel, pose: Pose, hand: HandPose) -> float:
-    """How hard each finger shall press (newtons) on a thing at `pose` in `map`, taken at `hand`."""
+    """The force of each finger (newtons) for an object at `pose` in `map`, grasped at `hand`."""
     middle = Rotation.from_quat(pose.orientation).apply(model.center_of_mass) + pose.position
     torque = model.mass_kg * GRAVITY_M_S2 * float(np.linalg.norm((middle - hand.position)[:2]))
     return LIGHTEST_GRIP_N + GRIP_N_KG * model.mass_kg + torque / (2 * TWIST_M)

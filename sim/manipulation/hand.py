@@ -1,4 +1,4 @@
-"""What is in the hand, as touch and weight tell."""
+"""Keeps track of what is in the hand, from touch and weight."""
 
 from collections.abc import Generator
 from dataclasses import dataclass
@@ -16,36 +16,37 @@ from sim.manipulation.grasps import HandPose
 from sim.objects.objects import ObjectModel
 
 CLOSING_S = 2.0
-"""The fingers take no longer to close, or to come off a thing."""
+"""The longest that the fingers take to close, or to come off an object."""
 SETTLING_S = 0.3
-"""So long the fingers need to set off, and a thing to come to rest once they are off it."""
+"""Time for the fingers to start moving, and for a released object to come to rest."""
 _UNFELT_S = 0.2
-"""What the fingers have not felt for longer has fallen."""
+"""An object has fallen if the fingers have not felt it for longer than this."""
 _WEIGHING_S = 0.2
+"""The weight is averaged over this time."""
 _LIGHTEST_KG = 0.03
-"""What is lighter, the wrist does not tell from nothing."""
+"""The wrist's sensor cannot detect lighter objects."""
 _WEIGHT_FELT = 0.5
-"""Share of a thing's weight that the wrist must carry if the thing is in the hand."""
+"""Least fraction of an object's weight that the wrist must measure if the object is in the hand."""
 
 _SWAY, _PUSH_N = 1.5, 8.0
-"""While the arm moves, the wrist feels up to so many times the weight; more, by this (newtons), and
-the thing has met something."""
+"""While the arm moves, the wrist measures up to `_SWAY` times the weight. If it measures more, by
+`_PUSH_N` (newtons), the object has hit something."""
 
 
 class LostError(CannotError):
-    """What was in the hand fell out of it on the way, or fell over when it was put down."""
+    """The held object fell out of the hand, or fell over when it was put down."""
 
 
 @dataclass(frozen=True, slots=True)
 class Held:
-    """What is in the hand.
+    """A held object.
 
     Attributes:
-        model: the thing, as it lay.
+        model: its model, in the resting pose that it had.
         position: of its frame in the hand's frame (metres).
         rotation: of its frame in the hand's frame.
-        gap: how far the hand opens for it (metres).
-        turn: how it was turned, seen by one who faced the robot that took it (radians).
+        gap: how far the fingers open for it (metres).
+        turn: the yaw that it had, in the frame of one who faced the robot (radians).
     """
 
     model: ObjectModel
@@ -56,7 +57,7 @@ class Held:
 
     @staticmethod
     def taken(model: ObjectModel, pose: Pose, hand: HandPose, gap: float, facing: float) -> "Held":
-        """The thing at `pose` in `map`, taken at `hand` by a robot that faced this yaw."""
+        """An object at `pose` in `map`, grasped at `hand` by a robot with the yaw `facing`."""
         to_hand = hand.rotation.inv()
         offset = to_hand.apply(np.asarray(pose.position) - hand.position)
         rotation = Rotation.from_quat(pose.orientation)
@@ -64,68 +65,68 @@ class Held:
         return Held(model, offset, to_hand * rotation, gap, turn)
 
     def hand_for(self, pose: Pose) -> HandPose:
-        """Where the hand must be for the thing to be at `pose` in `map`."""
+        """The pose of the hand for which the object is at `pose` in `map`."""
         rotation = Rotation.from_quat(pose.orientation) * self.rotation.inv()
         return HandPose(np.asarray(pose.position) - rotation.apply(self.position), rotation)
 
 
 class Hand:
-    """Keeps what it should hold in step with what it feels."""
+    """Keeps the object that should be held in step with what the fingers feel."""
 
     def __init__(self, hardware: Hardware) -> None:
-        """Begin with nothing in it."""
+        """Begin with an empty hand."""
         self._hardware = hardware
         self._unfelt_s = np.inf
         self._around: Held | None = None
         self._opened = False
         self.held: Held | None = None
-        """What should be in it, by all that was done and felt."""
+        """The object that should be in the hand, from all actions and touches so far."""
 
     @property
     def touches(self) -> bool:
-        """Whether both fingers touch a thing at this moment."""
+        """Whether both fingers touch an object at this moment."""
         return bool(self._hardware.touched())
 
     @property
     def holding(self) -> bool:
-        """Whether both fingers touch a thing; they may miss it for moments."""
+        """Whether both fingers touch an object, or did a moment ago: contacts come and go."""
         return self._unfelt_s <= _UNFELT_S or self.touches
 
     @property
     def grips(self) -> bool:
-        """Whether it should hold something, or holds what it was not told of."""
+        """Whether an object should be held, or the fingers feel an unexpected one."""
         return self.held is not None or self._unfelt_s <= _UNFELT_S
 
     @property
     def wavers(self) -> bool:
-        """Whether they do miss it for a moment, or have lost it."""
+        """Whether the fingers do not touch the object now, but did a moment ago."""
         return self.holding and not self.touches
 
     def close_on(self, held: Held, force: float) -> None:
-        """Press with this force (newtons): what both fingers will feel is this."""
+        """Close with a force (newtons); what both fingers then feel is `held`."""
         self._around, self._opened = held, False
         self._hardware.squeeze(force)
 
     def until_still(self) -> Skill:
-        """Wait until the fingers, told to move just now, are still."""
+        """Wait until the fingers, which were commanded just now, are at rest."""
         yield from pause(SETTLING_S)
         yield from wait_until(lambda: self._hardware.fingers_still, CLOSING_S)
 
     def open(self, gap: float) -> None:
-        """Let go; a thing is in the hand as long as it is felt there."""
+        """Open to a gap (metres); an object counts as held as long as it is felt."""
         self._opened = True
         self._hardware.open_fingers(gap)
 
     def hold(self) -> None:
-        """Stop the fingers where they are; if they touch a thing, they go on pressing or opening.
+        """Stop the fingers, unless they touch an object: then they go on pressing or opening.
 
-        So what is gripped stays gripped, and what is let go is let go.
+        So a gripped object stays gripped, and an object that is being released is released.
         """
         if not self.holding:
             self._hardware.open_fingers(self._hardware.gap)
 
     def sense(self) -> None:
-        """Feel what is in the hand; called once per control period, whatever the robot does."""
+        """Update from touch; called once per control period, whatever the robot does."""
         if self.touches:
             self._unfelt_s = 0.0
             self.held = self.held or self._around
@@ -135,12 +136,12 @@ class Hand:
             self.held = self._around = None
 
     def settle(self) -> None:
-        """Believe the fingers: what they do not feel is not in the hand."""
+        """Set `held` to None if the fingers feel nothing."""
         if not self.holding:
             self.held = None
 
     def feel(self) -> None:
-        """Make sure that what should be in the hand is there; called once per control period.
+        """Check that the object that should be held is in the hand; called once per control period.
 
         Raises:
             LostError: if it is not.
@@ -150,7 +151,7 @@ class Hand:
             raise LostError(f"the {name} fell from my hand")
 
     def keep(self, motion: Skill) -> Skill:
-        """Move the arm with what is in the hand, and feel it all the while.
+        """Run a motion of the arm, and check the held object in each control period.
 
         Raises:
             LostError: if it is lost; the arm stops there.
@@ -164,7 +165,7 @@ class Hand:
             yield
 
     def weigh(self) -> Generator[None, None, float]:
-        """What the wrist carries (newtons), on average over a moment; with the arm at rest."""
+        """Measure the force on the wrist (newtons), averaged over a moment; the arm must rest."""
         felt = []
         for _ in range(round(_WEIGHING_S / CONTROL_S)):
             yield
@@ -172,12 +173,12 @@ class Hand:
         return float(np.mean(felt))
 
     def meets(self, weight: float) -> bool:
-        """Whether what is in the hand has met something, if the wrist carried `weight` before."""
+        """Whether the held object has hit something; `weight` is the wrist's force before (N)."""
         return self._hardware.weight > _SWAY * weight + _PUSH_N
 
     @staticmethod
     def is_lifted(model: ObjectModel, weight: float) -> bool:
-        """Whether so much more in the wrist than before (newtons) may be this thing's weight."""
+        """Whether an additional force on the wrist (newtons) can be the weight of an object."""
         if model.mass_kg < _LIGHTEST_KG:
             return True
         return weight > _WEIGHT_FELT * model.mass_kg * GRAVITY_M_S2

@@ -1,6 +1,6 @@
-"""Where the hand is for given joints, and which joints bring it somewhere.
+"""Forward and inverse kinematics of the arm.
 
-Computed on a second robot in a PyBullet world of its own, where nothing moves by itself.
+They use a second robot in a PyBullet world of its own, in which no physics runs.
 """
 
 from itertools import pairwise
@@ -18,19 +18,20 @@ from sim.manipulation.grasps import HandPose
 POSITION_TOLERANCE = 0.002
 ANGLE_TOLERANCE = 0.02
 _MILLIMETRE, _HALF_DEGREE = 1e-3, 1e-2
-"""Units in which the solver weighs position against orientation."""
+"""Units of errors of position (metres) and orientation (radians): both have the same weight."""
 _STAY_WEIGHT = 0.03
+"""Weight of the distance to the start posture."""
 _DAMPING, _EVALUATIONS, _LEAST_GAIN = 0.1, 40, 0.003
-"""Of the solver: its first damping, its patience, and the share of the error that a step takes off
-at least, or it was the last."""
+"""The solver's first damping, and its most steps; it also ends when a step reduces the error by
+less than the fraction `_LEAST_GAIN`."""
 _DIAGONAL = np.diag_indices(len(ARM))
 _HAND = "panda_grasptarget"
 _LENGTHS = ("panda_link2", "panda_link4", "panda_link6", "panda_link7")
-"""From shoulder to wrist: between two that follow one another the distance stays the same."""
+"""Links from shoulder to wrist; the distance between two successive ones is constant."""
 
 
 class Kinematics:
-    """The arm on its base."""
+    """The kinematics of the arm on its base."""
 
     def __init__(self) -> None:
         """Make a world with nothing but the robot."""
@@ -54,26 +55,34 @@ class Kinematics:
         self._length = sum(float(np.linalg.norm(b - a)) for a, b in pairwise(joints_at))
         hand = self._hand()
         self._wrist = hand.rotation.inv().apply(joints_at[-1] - hand.position)
-        """In the frame of the hand."""
+        """The wrist's position (3,) in the frame of the hand."""
 
     @property
     def limits(self) -> tuple[Floats, Floats]:
-        """The lowest and the highest positions of the joints of `ARM`."""
+        """The lower and upper limits of the joints of `ARM`, less a small margin."""
         return self._lower, self._upper
 
     def close(self) -> None:
-        """Free the world."""
+        """Close the world."""
         self._client.disconnect()
 
     def hand(self, base: Floats, arm: Floats) -> HandPose:
-        """Where the hand is for a base pose (x, y, yaw) and positions of the joints of `ARM`."""
+        """The pose of the hand for a base pose (x, y, yaw) and positions of the joints of `ARM`."""
         self._assume(base, arm)
         return self._hand()
 
     def solve(self, base: Floats, target: HandPose, near: Floats) -> Floats | None:
-        """Joints of `ARM`, near `near`, that bring the hand to the target; None if none are found.
+        """Inverse kinematics: positions of the joints of `ARM` that bring the hand to a pose.
 
-        Levenberg-Marquardt within the joint limits.
+        The method is Levenberg-Marquardt within the joint limits.
+
+        Args:
+            base: pose (x, y, yaw).
+            target: pose of the hand in `map`.
+            near: posture to start from; the solution stays near it.
+
+        Returns:
+            The positions, or None if no solution is found.
         """
         near = np.clip(near, self._lower, self._upper)
         self._assume(base, near)
@@ -106,7 +115,14 @@ class Kinematics:
     def line(
         self, base: Floats, start: Floats, goal: HandPose, step: float = 0.03
     ) -> list[Floats] | None:
-        """Joints that move the hand straight to a pose from where `start` has it; None if none."""
+        """Joint positions that move the hand in a straight line to a pose; None if none are found.
+
+        Args:
+            base: pose (x, y, yaw).
+            start: positions of the joints of `ARM` to start from.
+            goal: pose of the hand in `map`.
+            step: the longest distance of the hand between two positions (metres).
+        """
         hand = self.hand(base, start)
         turns = (goal.rotation * hand.rotation.inv()).as_rotvec()
         way = goal.position - hand.position
@@ -123,9 +139,9 @@ class Kinematics:
     # --- helpers ---
 
     def _is_too_far(self, target: HandPose, arm: Floats) -> bool:
-        """Whether no arm of this length has its wrist there, however high the lift is.
+        """Whether the arm is too short for the target at any height of the lift.
 
-        `arm` is where the joints are assumed now.
+        `arm` must be the joint positions that are set in the world now.
         """
         shoulder = self._position(_LENGTHS[0])
         wrist = target.position + target.rotation.apply(self._wrist)
@@ -150,9 +166,9 @@ class Kinematics:
         self._all[self._columns] = values
 
     def _error(self, target: HandPose, arm: Floats, near: Floats) -> Floats:
-        """How far the hand is off (position, orientation), and how far the arm went (14,).
+        """The weighted error (14,): of position, of orientation, and distance to the start posture.
 
-        `arm` is where the joints are assumed now.
+        `arm` must be the joint positions that are set in the world now.
         """
         hand = self._hand()
         turn = (hand.rotation * target.rotation.inv()).as_rotvec()
@@ -165,7 +181,7 @@ class Kinematics:
         )
 
     def _jacobian(self) -> Floats:
-        """Of the error (14, 8), where the joints are assumed now."""
+        """The Jacobian (14, 8) of the error, at the joint positions set in the world now."""
         zeros = [0.0] * len(self._all)
         linear, angular = self._client.calculateJacobian(
             self._robot.body,
@@ -186,7 +202,7 @@ class Kinematics:
 
 
 def _bounded_step(hessian: Floats, gradient: Floats, low: Floats, high: Floats) -> Floats:
-    """About the lowest point of a quadratic form within bounds: what would leave them stays."""
+    """The approximate minimum of a quadratic form within bounds, by fixing components at them."""
     step, free = np.zeros(len(gradient)), np.ones(len(gradient), dtype=bool)
     while free.any():
         pull = gradient[free] + hessian[np.ix_(free, ~free)] @ step[~free]

@@ -1,6 +1,6 @@
-"""Motions of arm and fingers for whoever decides elsewhere what they are to do.
+"""Motions of arm and fingers as in MoveIt 2, for clients that plan grasps themselves.
 
-As MoveIt 2 has them: the hand to a pose, the joints to positions, the fingers to a gap.
+They bring the hand to a pose, joints to positions, and the fingers to a gap.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -21,20 +21,21 @@ from sim.manipulation.planning import PlanningWorld
 from sim.manipulation.reaching import POSTURES, any_path
 
 SHORT_M, TURNED = 0.2, 0.2
-"""A way of the hand that is no longer, and no more of a turn (radians), is tried straight first."""
+"""If a motion of the hand is this short, and turns no more than this (radians), a straight line is
+tried first."""
 _IN_HAND = HandPose(np.zeros(3), Rotation.identity())
-"""A load is told as the hand sees it."""
+"""The shapes of a load are already in the hand's frame."""
 Plan = Callable[[Floats, Floats], Sequence[Floats]]
-"""Joints to pass, from a base pose (x, y, yaw) and where the joints are."""
+"""Plans joint positions to pass, from a base pose (x, y, yaw) and the current joint positions."""
 
 
 class Motions:
-    """The arm's skills without an aim of their own."""
+    """Skills that move arm and fingers to given goals."""
 
     def __init__(
         self, hardware: Hardware, planning: PlanningWorld, hand: Hand, thinker: Thinker
     ) -> None:
-        """Use these parts; the planning world by what is computed, only."""
+        """Use these parts; the planning world is only used in computations of the thinker."""
         self._hardware = hardware
         self._planning = planning
         self._hand = hand
@@ -44,7 +45,7 @@ class Motions:
         """Bring the point between the fingers to a pose.
 
         Raises:
-            CannotError: if there is no way, or something is in it.
+            CannotError: if no path is found, or the arm hits something.
         """
         x, y, yaw = self._hardware.base_pose
         base = Pose((x, y, 0.0), heading(yaw))
@@ -53,15 +54,15 @@ class Motions:
         yield from self._go(partial(self._way_to, target, goal.straight), goal)
 
     def move_joints(self, goal: MoveJoints) -> Skill:
-        """Bring joints of `ARM` to positions; the others stay.
+        """Bring joints of `ARM` to positions; the others keep theirs.
 
         Raises:
-            CannotError: if there is no way, or something is in it.
+            CannotError: if no path is found, or the arm hits something.
         """
         yield from self._go(partial(self._way_to_joints, goal.joints), goal)
 
     def grip(self, goal: Grip) -> Skill:
-        """Open the fingers to a gap; or close them, until something is between them."""
+        """Open the fingers to a gap, or close them until they press on something."""
         if goal.gap >= self._hardware.gap:
             self._hand.open(goal.gap)
         else:
@@ -104,7 +105,7 @@ class Motions:
         return bool(np.linalg.norm(target.position - hand.position) < SHORT_M and turn < TURNED)
 
     def _line(self, target: HandPose, base: Floats, arm: Floats) -> Sequence[Floats] | None:
-        """Straight, and near to things, as the last part of a reach is."""
+        """A straight motion, checked without a margin; None if it is not free."""
         joints = self._planning.line(base, arm, target)
         if joints and self._planning.is_last_part_free(base, joints):
             return joints[1:]

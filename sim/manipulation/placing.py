@@ -1,4 +1,4 @@
-"""Finding a free spot on a piece of furniture for a thing that is in the hand."""
+"""Finds free spots on furniture for a held object, and checks an object that was put down."""
 
 from collections.abc import Iterator
 from itertools import product
@@ -13,42 +13,46 @@ from sim.manipulation.clutter import level_points, rising_points
 from sim.objects.objects import ObjectModel
 
 RIM_M = 0.13
-"""From the front edge of a surface to the middle of what is put there, for the reach of an arm."""
+"""Distance from the front edge of a surface to the centre of an object, for the arm's reach."""
 MARGIN_M = 0.02
-"""From the outline of a thing to the edge of its surface."""
+"""Least distance from the outline of an object to the edge of its surface."""
 CLEAR_M = 0.06
-"""Around the outline of a thing, for the fingers."""
+"""Free space around the outline of an object, for the fingers."""
 TIGHT_M = 0.04
-"""What is left of that where there is no better spot."""
+"""The same where there is no better spot."""
 HEADROOM_M = 0.05
+"""Free height above an object under a board."""
 DROP_M = 0.002
-"""How far above the surface a thing is let go."""
+"""The height above the surface at which an object is released."""
 _SHIFTED_M = 0.03
-"""A thing may slide this far when it is let go."""
+"""An object can slide this far when it is released."""
 FLAT_M = 0.012
-"""Lower than this above a surface, the camera does not tell a thing from it."""
+"""The camera cannot tell lower objects from the surface."""
 _UPRIGHT_M = 0.015
-"""What stands is as high as it should be, but for this and a tenth of it."""
+"""The height of a standing object differs from its model by at most this and a tenth of it."""
 _STEP_M, _ROW_M = 0.04, 0.08
-"""Between places along the front, and between rows of them (metres)."""
+"""Distance between spots along the front, and between rows of spots (metres)."""
 _CELL_M, _SEEN = 0.05, 0.8
-"""Behind the front row, so much of a spot must be seen, by cells: things hide what is behind."""
+"""Behind the front row, the camera must see this fraction of a spot's cells: objects in front may
+hide others."""
 _FEW_POINTS = 3
+"""Fewer points than this are noise."""
 _TURNS = (0.0, np.pi, np.pi / 2, -np.pi / 2)
 
 
 def free_spots(
     piece: Furniture, surface: Surface, model: ObjectModel, seen: Floats, turn: float = 0.0
 ) -> Iterator[Pose]:
-    """Poses in `map` on a surface where the thing can stand, the handiest first.
+    """Poses in `map` on a surface where an object can stand, the easiest to reach first.
 
     Args:
-        piece: the furniture, as the map knows it.
+        piece: the furniture, from the map.
         surface: one of its surfaces.
-        model: what is to be put down.
-        seen: points (n, 3) in `map` that the depth camera sees now; what rises above the surface
-            is in the way.
-        turn: how the thing is best turned, seen from the furniture (radians); then come quarters.
+        model: the object to put down.
+        seen: points (n, 3) in `map` that the depth camera sees now; those above the surface are
+            obstacles.
+        turn: the preferred yaw of the object in the furniture frame (radians); the other quarter
+            turns from it are tried, too.
     """
     if model.size[2] + HEADROOM_M > surface.clearance:
         return
@@ -70,13 +74,13 @@ def free_spots(
 
 
 def stands(model: ObjectModel, spot: Pose, seen: Floats, clearance: float = OPEN) -> str | None:
-    """What is wrong with a thing that was put down at `spot`; None if it stands there.
+    """Check an object that was put down at `spot`; None if it stands there, else what is wrong.
 
     Args:
-        model: what was put down.
-        spot: where, in `map`.
+        model: the object.
+        spot: its intended pose in `map`.
         seen: points (n, 3) in `map` that the depth camera sees now.
-        clearance: free height there (metres): what is seen higher is the board above.
+        clearance: free height there (metres); higher points belong to the board above.
     """
     local = Rotation.from_quat(spot.orientation).inv().apply(seen - np.asarray(spot.position))
     low, high = np.subtract(model.lower, _SHIFTED_M)[:2], np.add(model.upper, _SHIFTED_M)[:2]
@@ -91,7 +95,7 @@ def stands(model: ObjectModel, spot: Pose, seen: Floats, clearance: float = OPEN
 
 
 def _outline(model: ObjectModel, turn: float) -> tuple[Floats, Floats]:
-    """Lower and upper corner of the turned thing's outline (metres)."""
+    """Lower and upper corner (2,) of the outline of an object with the yaw `turn` (metres)."""
     corners = np.array([(x, y) for x in _ends(model, 0) for y in _ends(model, 1)])
     cos, sin = np.cos(turn), np.sin(turn)
     turned = corners @ np.array([[cos, sin], [-sin, cos]])
@@ -103,10 +107,10 @@ def _ends(model: ObjectModel, axis: int) -> tuple[float, float]:
 
 
 def _places(surface: Surface) -> Iterator[tuple[float, float]]:
-    """How far behind the front row and how far from the middle of the surface (metres).
+    """Positions to try: distance behind the front row, and y on the surface (metres).
 
-    In the front row from the middle to both sides; behind it from the sides, which leaves more room
-    for what comes later.
+    The front row goes from the centre to both sides. The rows behind it begin at the sides, which
+    leaves more room for later objects.
     """
     across = list(_from_middle(surface))
     yield from product((0.0,), across)
@@ -115,13 +119,13 @@ def _places(surface: Surface) -> Iterator[tuple[float, float]]:
 
 
 def _has_room(rising: Floats, low: Floats, high: Floats, clear: float) -> bool:
-    """Whether hardly anything rises between two corners or this near to them."""
+    """Whether (almost) no points are between two corners, or nearer to them than `clear`."""
     inside = ((rising > low - clear) & (rising < high + clear)).all(axis=1)
     return bool(inside.sum() < _FEW_POINTS)
 
 
 def _is_seen(level: Floats, low: Floats, high: Floats) -> bool:
-    """Whether the surface is seen nearly everywhere between two corners."""
+    """Whether the camera sees the surface nearly everywhere between two corners."""
     cells = np.ceil((high - low) / _CELL_M)
     found = np.floor((level - low) / _CELL_M)
     inside = ((found >= 0) & (found < cells)).all(axis=1)
@@ -129,18 +133,18 @@ def _is_seen(level: Floats, low: Floats, high: Floats) -> bool:
 
 
 def _fits_behind(surface: Surface, back: float) -> bool:
-    """Whether what reaches back to there is over the surface, with some margin."""
+    """Whether an outline that reaches back to x = `back` is on the surface, with a margin."""
     return back > MARGIN_M - surface.length_x / 2
 
 
 def _from_middle(surface: Surface) -> Iterator[float]:
-    """Places along the front, from the middle to both sides."""
+    """Positions y along the front, from the centre to both sides."""
     for step in range(int(surface.length_y / 2 / _STEP_M) + 1):
         yield from sorted({step * _STEP_M, -step * _STEP_M})
 
 
 def _fits(surface: Surface, right: float, left: float) -> bool:
-    """Whether what reaches from `right` to `left` is over the surface, with some margin."""
+    """Whether an outline from y = `right` to `left` is on the surface, with a margin."""
     half = surface.length_y / 2 - MARGIN_M
     return right > -half and left < half
 

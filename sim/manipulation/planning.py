@@ -1,4 +1,4 @@
-"""What would be in the way of the robot: the map's furniture, and what the camera saw on it."""
+"""Collision checks for planning, with the furniture of the map and the objects that were seen."""
 
 from collections.abc import Sequence
 from itertools import pairwise
@@ -17,11 +17,11 @@ from sim.manipulation.grasps import HandPose
 from sim.manipulation.kinematics import Kinematics
 
 CHECKED: Floats = np.array([0.015, *[0.05] * 7])
-"""How far apart the joints are between checks of a path (metres, radians). The hand moves less than
-2 cm between them: where it is 1 cm away from things at each, it touches nothing between."""
+"""Resolution of collision checks along a path in joint space (metres, radians). The hand moves less
+than 2 cm between checks: if it keeps 1 cm of distance at each, it touches nothing between them."""
 _GRAZE = 0.004
-"""At the end of a reach, what is carried may be this far inside something: it is not known any
-better (metres)."""
+"""At the end of a reach, the held object may be this far inside another one (metres): poses are not
+known more exactly."""
 _ARM_LINKS = (
     "panda_link2", "panda_link3", "panda_link4", "panda_link5", "panda_link6", "panda_link7",
     "panda_hand", "panda_leftfinger", "panda_rightfinger",
@@ -30,10 +30,10 @@ _OWN_BODY = ("base_link", "carriage", "camera_link")
 
 
 class PlanningWorld(Kinematics):
-    """The arm on its base among the furniture of the map, for trying motions before making them."""
+    """The arm and base among the furniture of the map, in a separate world for planning."""
 
     def __init__(self, home: Home) -> None:
-        """Build the furniture around the robot; what stands on it is not known yet."""
+        """Build the robot and the furniture; objects on it are not known yet."""
         super().__init__()
         self._furniture = build_home(self._client, home)
         self._target: set[int] = set()
@@ -43,9 +43,9 @@ class PlanningWorld(Kinematics):
         self._in_hand: HandPose | None = None
 
     def assume_clutter(self, target: Sequence[Column], others: Sequence[Column]) -> None:
-        """Take these columns, and no others, for things that the arm must not touch.
+        """Replace the obstacles on furniture by these columns.
 
-        Only the last part of a reach may come near the target.
+        Only the last part of a reach may touch those of the target.
         """
         self.forget_target()
         for body in self._others:
@@ -54,17 +54,17 @@ class PlanningWorld(Kinematics):
         self._others = {self._column_body(column) for column in others}
 
     def forget_target(self) -> None:
-        """The target is in the hand now, or no longer where it was."""
+        """Remove the target: it is in the hand now, or no longer where it was."""
         for body in self._target:
             self._client.removeBody(body)
         self._target = set()
 
     def carry(self, shapes: Sequence[Shape], in_hand: HandPose | None) -> None:
-        """Take something rigid in the hand into account; nothing if there are no shapes.
+        """Include a held object in collision checks; none if there are no shapes.
 
         Args:
-            shapes: in the thing's frame.
-            in_hand: that frame as the hand sees it.
+            shapes: its shapes in its own frame.
+            in_hand: the pose of that frame in the hand's frame; None if there are no shapes.
         """
         self._in_hand = in_hand
         if shapes == self._shapes:
@@ -75,15 +75,23 @@ class PlanningWorld(Kinematics):
         self._shapes = shapes
 
     def is_last_part_free(self, base: Floats, joints: Sequence[Floats]) -> bool:
-        """Whether the arm touches nothing but the target, slow and near to things as it may be."""
+        """Whether the arm touches nothing but the target; checked without a safety margin."""
         return not any(self.obstacle(base, arm, 0.0, reaching=True) for arm in joints)
 
     def obstacle(
         self, base: Floats, arm: Floats, margin: float = 0.01, reaching: bool = False
     ) -> str | None:
-        """What the arm would come closer to than the margin: a name of the home, or other words.
+        """What the arm or the held object would come too close to; None if nothing.
 
-        While `reaching`, the target of the reach does not count.
+        Args:
+            base: pose (x, y, yaw).
+            arm: positions of the joints of `ARM`.
+            margin: least distance (metres).
+            reaching: whether this is the last part of a reach: the target does not count then, and
+                the held object may touch other ones.
+
+        Returns:
+            A name in the home, or other words for a message.
         """
         self._assume(base, arm)
         client, body, links = self._client, self._robot.body, self._robot.links
@@ -108,7 +116,7 @@ class PlanningWorld(Kinematics):
         return None
 
     def base_obstacle(self, base: Floats, margin: float = 0.02) -> str | None:
-        """What the base at (x, y, yaw) would come closer to than the margin."""
+        """The furniture that the base at (x, y, yaw) would come closer to than the margin (m)."""
         self._assume(base, FOLDED)
         low, high = self._client.getAABB(self._robot.body, self._robot.links["base_link"])
         reach = np.array([margin, margin, 0.0])
@@ -120,7 +128,7 @@ class PlanningWorld(Kinematics):
         return None
 
     def drive_obstacle(self, path: Sequence[Floats], step: float = 0.05) -> str | None:
-        """What the base would come too close to on its way through poses (x, y, yaw)."""
+        """The furniture that the base would come too close to on a path of poses (x, y, yaw)."""
         for start, end in pairwise(path):
             count = max(1, int(np.ceil(np.linalg.norm((end - start)[:2]) / step)))
             for part in np.linspace(0, 1, count + 1):
@@ -130,7 +138,7 @@ class PlanningWorld(Kinematics):
         return None
 
     def path_obstacle(self, base: Floats, path: Sequence[Floats]) -> str | None:
-        """What would be in the way of moving the joints along the path."""
+        """The first obstacle on a path of joint positions of `ARM`; None if the path is free."""
         for start, end in pairwise(path):
             count = max(1, int(np.ceil((np.abs(end - start) / CHECKED).max())))
             for part in np.linspace(0, 1, count + 1):
@@ -142,12 +150,12 @@ class PlanningWorld(Kinematics):
     # --- helpers ---
 
     def _near(self, bounds: tuple[Floats, Floats]) -> set[int]:
-        """What may be within bounds: anything but the robot and what it carries."""
+        """Ids of bodies that may be within bounds, without the robot and the held object."""
         found = {pair[0] for pair in self._client.getOverlappingObjects(*bounds) or ()}
         return found - {self._robot.body, self._load}
 
     def _move_load(self) -> None:
-        """Put what is carried where the hand is."""
+        """Move the held object along with the hand."""
         assert self._in_hand is not None
         hand = self._hand()
         self._client.resetBasePositionAndOrientation(

@@ -1,4 +1,4 @@
-"""Choosing where to stand and how to move to bring the hand to where it closes or opens."""
+"""Plans where the base stands and how the arm moves, to bring the hand to a grasp or a spot."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
@@ -15,33 +15,39 @@ from sim.manipulation.planning import CHECKED, PlanningWorld
 APPROACH_M = (0.12, 0.05, 0.025)
 """Lengths of the last straight part of a reach, in order of preference."""
 NEAREST_M = 0.40
-"""From the front edge of the furniture to the middle of the robot when it reaches for a thing."""
+"""Distance from the front edge of furniture to the centre of the robot that reaches for it."""
 BACK_OFF_M = 0.24
-"""How far the base retreats, if it can, before the arm is folded."""
+"""How far the base retreats, if possible, before the arm is folded."""
 OVER_M = (0.15, 0.3, 0.45)
-"""How much higher the lift may go to bring the arm in from above, in order of preference."""
+"""How much higher the lift can go to bring the arm in from above, in order of preference."""
 ASIDE_M = (0.0, 0.15, -0.15, 0.3, -0.3)
-"""Where to stand, left of the thing, in order of preference."""
+"""Offsets of the base to the left of the object, in order of preference."""
 FLOOR_REACH_M = 0.55
-"""From a thing on the floor to the middle of the robot that picks it up."""
+"""Distance from an object on the floor to the centre of the robot that picks it up."""
 FLOOR_BEARINGS = tuple(np.radians((0.0, 45.0, -45.0, 90.0, -90.0, 135.0, -135.0, 180.0)))
-"""Sides from which it is tried, from that of the robot (radians)."""
+"""Directions from which it is picked up, relative to that of the robot now (radians)."""
 _SIMPLE_TRIES, _ROUNDABOUTS, _SAMPLES = 24, 12, 300
-"""How many reaches are tried in a simple way, how many of them then in a roundabout way, and with
-how many random postures each."""
+"""How many reaches are tried with simple paths, how many of them then with RRT-Connect, and with
+how many random samples each."""
 COMFORT: Floats = np.array([0.15, 0.0, 0.1, 0.0, -2.0, 0.0, 2.1, 0.785])
-"""The arm bent, hand pointing down before the robot: reaches end near it where they can."""
+"""The arm bent, the hand pointing down in front of the robot; inverse kinematics starts from it."""
 _ELBOW_RIGHT: Floats = np.array([0.1, -0.7, 0.5, 0.9, -1.6, -0.4, 1.8, 0.785])
 _ELBOW_LEFT: Floats = np.array([0.1, 0.7, 0.5, -0.9, -1.6, 0.4, 1.8, 0.785])
 POSTURES = ((COMFORT,), (_ELBOW_RIGHT, _ELBOW_LEFT))
-"""Near which reaches end, in order of preference: between boards there is more room beside the
-elbow than above the hand."""
+"""Start postures of inverse kinematics, in order of preference: between boards there is more room
+beside the elbow than above the hand."""
 Aim = TypeVar("Aim")
 
 
 @dataclass(frozen=True, slots=True)
 class Reach:
-    """A way for the hand to a pose: `path` from above or before it, then straight along `last`."""
+    """A planned motion of the hand to a pose; all points are joint positions of `ARM`.
+
+    Attributes:
+        hand: the pose.
+        path: to a point above the pose, or in front of it.
+        last: from there to the pose, in a straight line.
+    """
 
     hand: HandPose
     path: list[Floats]
@@ -49,18 +55,18 @@ class Reach:
 
     @property
     def way_back(self) -> list[Floats]:
-        """The last part in reverse."""
+        """The last, straight part in reverse."""
         return [*reversed(self.last[:-1]), self.path[-1]]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Approach:
-    """Where to stand and how to bring the hand to where it closes or opens.
+    """Where the base stands, and possible poses for the hand to close or open at.
 
     Attributes:
-        stance: poses (x, y, yaw) that the base passes; the last is where it stands.
-        hands: where the hand shall be; any of them will do.
-        way: the last straight part of its way (metres, in `map`).
+        stance: poses (x, y, yaw) that the base passes; at the last it stops.
+        hands: alternative poses of the hand.
+        way: (3,) displacement of the hand in the last, straight part (metres, in `map`).
     """
 
     stance: list[Floats]
@@ -69,7 +75,7 @@ class Approach:
 
     @property
     def base(self) -> Floats:
-        """Where the base stands."""
+        """The final pose of the base."""
         return self.stance[-1]
 
 
@@ -82,7 +88,7 @@ class _LastPart:
 
 
 def standing_poses(piece: Furniture, target: Floats, near_m: float = NEAREST_M) -> Iterator[Floats]:
-    """Poses (x, y, yaw) of the base from which a point on the furniture may be reached."""
+    """Poses (x, y, yaw) of the base from which the arm may reach a point on the furniture."""
     x, y, yaw = piece.pose
     out, left = np.array([np.cos(yaw), np.sin(yaw)]), np.array([-np.sin(yaw), np.cos(yaw)])
     along = float((target[:2] - (x, y)) @ left)
@@ -102,14 +108,14 @@ def floor_poses(here: Floats, target: Floats) -> Iterator[Floats]:
 
 
 def _nearest_turn(here: float, yaw: float) -> float:
-    """The same yaw, counted on from where the robot is turned to (radians)."""
+    """The equivalent of a yaw that is nearest to the robot's yaw `here` (radians)."""
     return here + float(np.remainder(yaw - here + np.pi, 2 * np.pi) - np.pi)
 
 
 def plan_stance(world: PlanningWorld, here: Floats, base: Floats) -> list[Floats] | None:
-    """Base poses to pass from here to a standing pose without touching anything, or None.
+    """Base poses to pass from `here` to `base` without collision; None if there are none.
 
-    Straight, or first ahead and then aside, or the other way round.
+    The way is straight, or first ahead and then aside, or first aside and then ahead.
     """
     ahead = np.array([np.cos(base[2]), np.sin(base[2]), 0.0])
     advance = ((base - here) @ ahead) * ahead
@@ -133,12 +139,12 @@ def plan_retreat(world: PlanningWorld, here: Floats) -> Floats:
 def choose_approach(
     world: PlanningWorld, start: Floats, options: Callable[[], Iterable[tuple[Aim, Approach]]]
 ) -> tuple[Aim, Approach] | None:
-    """The first approach with a simple motion to its end; if none has, one with a roundabout one.
+    """The first approach for which a simple path exists; if none, one with a path by RRT-Connect.
 
     Args:
-        world: the map.
-        start: joints of `ARM` to start from.
-        options: gives what may be aimed at, and how; the best first.
+        world: for collision checks and kinematics.
+        start: start positions of the joints of `ARM`.
+        options: returns the possible aims and their approaches, the best first.
     """
     for postures in POSTURES:
         nearly: list[tuple[Aim, Approach, _LastPart]] = []
@@ -156,7 +162,7 @@ def choose_approach(
 
 
 def plan_reach(world: PlanningWorld, start: Floats, approach: Approach) -> Reach | None:
-    """A collision-free motion, from joints `start` of `ARM`, by an approach that was chosen."""
+    """Plan a collision-free motion from joint positions `start` of `ARM`, by a chosen approach."""
     for postures in POSTURES:
         lasts = list(_last_parts(world, approach, postures))
         for plan, last in product((clear_path, _roundabout), lasts):
@@ -169,9 +175,9 @@ def plan_reach(world: PlanningWorld, start: Floats, approach: Approach) -> Reach
 def _last_parts(
     world: PlanningWorld, approach: Approach, postures: Iterable[Floats]
 ) -> Iterator[_LastPart]:
-    """Free straight ways to the end of an approach.
+    """Collision-free straight motions to the end of an approach.
 
-    They begin where there is room enough for a path to end.
+    At their start the arm keeps the usual margin, so that a path can end there.
     """
     base = approach.base
     for posture, target in product(postures, approach.hands):
@@ -189,7 +195,10 @@ def _last_parts(
 def clear_path(
     world: PlanningWorld, base: Floats, start: Floats, end: Floats
 ) -> list[Floats] | None:
-    """Joints to pass to get from start to end, straight or by way of the lift, without a touch."""
+    """Joint positions to pass from start to end, without collision; None if there is no such path.
+
+    The path is straight in joint space, or goes over raised positions of the lift.
+    """
     highest = world.limits[1][0]
     tops = [max(start[0], end[0]), *(min(end[0] + over, highest) for over in OVER_M)]
     ways = [[np.append(top, start[1:]), np.append(top, end[1:])] for top in tops]
@@ -201,14 +210,14 @@ def clear_path(
 
 
 def any_path(world: PlanningWorld, base: Floats, start: Floats, end: Floats) -> list[Floats] | None:
-    """Joints to pass to get from start to end without touching anything, or None."""
+    """Joint positions to pass from start to end, without collision; None if none are found."""
     return clear_path(world, base, start, end) or _roundabout(world, base, start, end)
 
 
 def _roundabout(
     world: PlanningWorld, base: Floats, start: Floats, end: Floats
 ) -> list[Floats] | None:
-    from sim.manipulation.rrt import connect  # most missions do without
+    from sim.manipulation.rrt import connect  # slow to import, and most missions do not need it
 
     lower, upper = world.limits
     found = connect(

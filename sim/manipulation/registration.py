@@ -1,4 +1,4 @@
-"""Finding where a known thing stands from the part of its surface that the camera saw."""
+"""Estimates the pose of a known object from the points of its surface that the camera saw."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,37 +14,43 @@ from sim.objects.objects import ObjectModel
 from sim.objects.resting import Lying, lyings
 
 _POINTS, _FEW = 250, 3
-"""Points that are fitted to, and every which of them in a first, rough fit."""
+"""The most points of a fit; rough and close fits use only every third of them."""
 _YAWS, _BEHIND = 12, (0.0, 0.5, 1.0)
-"""How many yaws are guessed; how far behind what is seen the middle may be (of half the depth)."""
+"""Start values: the number of yaws, and how far the object's centre is behind the visible points,
+as fractions of half the object's depth."""
 _NUDGES_M = (0.0, 0.02, -0.02, 0.04, -0.04)
-"""How far from the best of these, along the view, the fit is tried again: it may be stuck there."""
+"""The close fit starts again at these offsets along the view, to leave local minima."""
 _ROUGH, _FINE, _EXACT = 5, 10, 50
-"""Steps of the fits at most: from all guesses, from the nudged ones, to all points."""
+"""The most steps of the rough, the close and the exact fit."""
 _NUDGED, _REFINED = 4, 3
-"""How many of the guesses are nudged, and how many of those fitted to all points."""
+"""How many rough fits are refined by the close fit, and how many close ones by the exact fit."""
 _CENTERING = 0.1
-"""Where the points leave a thing free to slide, their middle is that of the thing."""
+"""Weight of centring: where the points leave the object free to slide, it is centred on them."""
 _SEED = 0
 _FITS_M = 0.008
-"""A model that is off by less, in its surface and height together, is not doubted."""
+"""A fit is accepted if its errors of surface and of height together are less than this."""
 _HOPELESS_M = 0.03
-"""One that is off by more, when it was fitted closely, will not fit when it is fitted exactly."""
+"""An exact fit is not tried if those errors are more than this after the close fit."""
 _LIKELY = 2
-"""Of so many ways to have fallen, the likeliest after a rough fit, the fit goes on."""
+"""How many fallen poses, the likeliest after the rough fit, get a close fit."""
 _SIFTING, _SIFTED = 3, 6
-"""Of what has fallen, so many of the nudged guesses go on after so many steps."""
+"""In the close fit of fallen poses, only the best `_SIFTED` starts go on after `_SIFTING` steps."""
 _LIKELY_YAWS = 8
-"""And with so many of the yaws it begins."""
+"""The number of yaws that the rough fit of fallen poses starts with."""
 Which = NDArray[np.intp]
+"""(g,) for each guess, the index of its resting pose."""
 
 
 def fit_pose(model: ObjectModel, points: Floats, eye: Floats) -> Pose:
-    """The pose in `map` of an upright thing that fits its visible points (n, 3) best.
+    """The pose in `map` of an upright object that fits its visible points best.
 
-    Fits x, y, z and yaw so that the points lie on the side of the model that `eye` (3,), where the
-    camera is in `map`, can see. The yaw of a thing that looks the same from several sides is one of
-    several.
+    Fits x, y, z and yaw so that the points are on the side of the object that faces the camera. If
+    an object is symmetric, its yaw is one of several.
+
+    Args:
+        model: the object.
+        points: (n, 3) its visible points in `map` (metres).
+        eye: (3,) position of the camera in `map`.
     """
     seen, stands = _Seen(points, eye), lyings(model)[0]
     return seen.exactly(stands, seen.closely([stands], seen.roughly([stands]))[0]).pose
@@ -53,11 +59,16 @@ def fit_pose(model: ObjectModel, points: Floats, eye: Floats) -> Pose:
 def fit_fallen_pose(
     model: ObjectModel, points: Floats, eye: Floats, support: float
 ) -> tuple[ObjectModel, Pose]:
-    """How a thing lies on what is `support` high (metres), and where.
+    """The resting pose of an object that may have fallen.
+
+    Args:
+        model: the object.
+        points: (n, 3) its visible points in `map` (metres).
+        eye: (3,) position of the camera in `map`.
+        support: height of the surface that it rests on (metres).
 
     Returns:
-        The model of the one of its `lyings` that fits the visible points (n, 3), and its pose in
-        `map`.
+        The model of the one of its `lyings` that fits best, and its pose in `map`.
     """
     seen, (stands, *fallen) = _Seen(points, eye), lyings(model)
     upright = seen.closely([stands], seen.roughly([stands]))[0]
@@ -72,7 +83,7 @@ def fit_fallen_pose(
 
 
 def _fallen(seen: "_Seen", lyings: Sequence[Lying], support: float) -> tuple[Lying, "_Fit"]:
-    """In which of these ways a thing lies, and where."""
+    """The best of these resting poses, and its fit."""
     rough = seen.roughly(lyings, _LIKELY_YAWS)
     by_doubt = sorted(range(len(lyings)), key=lambda way: rough[way][0].doubt(support))
     ways = sorted(by_doubt[:_LIKELY])
@@ -86,24 +97,24 @@ def _fallen(seen: "_Seen", lyings: Sequence[Lying], support: float) -> tuple[Lyi
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Fit:
-    """A guess (x, y, z, yaw), and how far the points are off the thing there, on average (m)."""
+    """A guess (x, y, z, yaw), and the mean distance of the points from the object there (m)."""
 
     guess: Floats
     off: float
 
     @property
     def pose(self) -> Pose:
-        """In `map`."""
+        """The pose in `map`."""
         x, y, z, yaw = (float(value) for value in self.guess)
         return Pose((x, y, z), heading(yaw))
 
     def doubt(self, support: float) -> float:
-        """How far its surface is off the points, and its base off what it is on (metres)."""
+        """The error: distance of the points, and distance of the base from the support (m)."""
         return self.off + abs(float(self.guess[2]) - support)
 
 
 class _Seen:
-    """The visible points of a thing, and who saw them."""
+    """The visible points of an object, seen from `eye`, and the fits to them."""
 
     def __init__(self, points: Floats, eye: Floats) -> None:
         order = np.random.default_rng(_SEED).permutation(len(points))
@@ -114,10 +125,7 @@ class _Seen:
         self._away = (self._middle - eye[:2]) / np.linalg.norm(self._middle - eye[:2])
 
     def roughly(self, lyings: Sequence[Lying], yaws: int = _YAWS) -> list[list[_Fit]]:
-        """About where a thing is, for each of these ways to lie; the likeliest first.
-
-        For each it begins with so many of the yaws, the likeliest.
-        """
+        """Rough fits for each resting pose, the best first; each starts with the best `yaws`."""
         surface = _Surface(lyings, self._points[::_FEW])
         guesses, which = self._starts(surface, lyings, yaws)
         return self._fits(surface, *self._best(surface, guesses, which, _ROUGH, _NUDGED))
@@ -125,7 +133,7 @@ class _Seen:
     def closely(
         self, lyings: Sequence[Lying], rough: Sequence[Sequence[_Fit]], sifted: bool = False
     ) -> list[list[_Fit]]:
-        """The same, better; if they are `sifted`, only with the guesses that promise most."""
+        """Close fits for each resting pose, from rough ones; `sifted` drops bad starts early."""
         surface = _Surface(lyings, self._points[::_FEW])
         nudges = np.zeros((len(_NUDGES_M), 4))
         nudges[:, :2] = np.outer(_NUDGES_M, self._away)
@@ -137,13 +145,13 @@ class _Seen:
         return self._fits(surface, *self._best(surface, guesses, which, _FINE, _REFINED))
 
     def exactly(self, lying: Lying, fits: Sequence[_Fit]) -> _Fit:
-        """Where, to all points."""
+        """The best fit to all points, from close ones."""
         surface, which = _Surface([lying], self._points), np.zeros(len(fits), np.intp)
         guesses, which = self._best(surface, np.array([f.guess for f in fits]), which, _EXACT, 1)
         return self._fits(surface, guesses, which)[0][0]
 
     def _fits(self, surface: "_Surface", guesses: Floats, which: Which) -> list[list[_Fit]]:
-        """As many for each way to lie."""
+        """The fits of guesses, grouped by resting pose; all groups have the same size."""
         off = np.abs(surface.distances(guesses, which)).mean(axis=1)
         fits = [_Fit(*fit) for fit in zip(guesses, off.tolist(), strict=True)]
         each = len(fits) // (int(which.max()) + 1)
@@ -152,9 +160,9 @@ class _Seen:
     def _starts(
         self, surface: "_Surface", lyings: Sequence[Lying], kept: int
     ) -> tuple[Floats, Which]:
-        """A guess (x, y, z, yaw) for each yaw: below the middle of what is seen, or behind that.
+        """Start values (x, y, z, yaw) for each resting pose: the best `kept` yaws.
 
-        For each way to lie so many of them are `kept`, the likeliest.
+        For each yaw the object is centred on the visible points, or behind them, whichever is best.
         """
         yaws = np.arange(_YAWS) * 2 * np.pi / _YAWS
         across = np.stack((np.cos(yaws), np.sin(yaws), -np.sin(yaws), np.cos(yaws)), axis=-1)
@@ -179,9 +187,9 @@ class _Seen:
     def _best(
         self, surface: "_Surface", starts: Floats, which: Which, steps: int, kept: int
     ) -> tuple[Floats, Which]:
-        """Of the fits from some starts, the best for each way to lie.
+        """Fit from all starts, and keep the best `kept` for each resting pose.
 
-        Those first that face the eye, by their costs.
+        Fits that face the camera come first; then the order is that of the costs.
         """
         guesses, costs = least_squares(surface.off, starts, which, steps)
         away = surface.facing(guesses, which, self._eye) < 0.5
@@ -192,9 +200,9 @@ class _Seen:
 
 
 class _Surface:
-    """How far points are off the surface of a thing that lies in some way and at some pose.
+    """Distances of points (n, 3) from the surface of an object at guessed poses.
 
-    Poses are guesses (x, y, z, yaw), each with the number of the way in which it lies.
+    There are g guesses (x, y, z, yaw); `which` gives the index of the resting pose of each.
     """
 
     def __init__(self, lyings: Sequence[Lying], points: Floats) -> None:
@@ -206,12 +214,12 @@ class _Surface:
         self._middles = np.array([np.add(m.lower, m.upper)[:2] / 2 for m in models])
 
     def distances(self, guesses: Floats, which: Which) -> Floats:
-        """Of each point (g, n), negative inside."""
+        """Signed distances (g, n) of the points; negative inside."""
         standing = self._standing(self._local(guesses), which)
         return self._distance.at(_columns(standing)).reshape(len(guesses), -1)
 
     def off_only(self, guesses: Floats, which: Which) -> Floats:
-        """The distances, and how far the middle of the points is off that of the thing."""
+        """Residuals (g, n + 2): the distances, and the weighted x and y between the centres."""
         local = self._local(guesses)
         distances = self._distance.at(_columns(self._standing(local, which)))
         middle = (local[:, :2].min(axis=2) + local[:, :2].max(axis=2)) / 2
@@ -219,7 +227,7 @@ class _Surface:
         return np.concatenate((distances.reshape(len(guesses), -1), centering), axis=1)
 
     def off(self, guesses: Floats, which: Which) -> tuple[Floats, Floats]:
-        """The same (g, n + 2), and its derivatives by the guess (g, n + 2, 4)."""
+        """The same residuals (g, n + 2), and their derivatives by the guess (g, n + 2, 4)."""
         local = self._local(guesses)
         distances, grows = self._with_gradient(local, which)
         cos, sin = np.cos(guesses[:, 3:]), np.sin(guesses[:, 3:])
@@ -242,7 +250,7 @@ class _Surface:
         return off, slope
 
     def facing(self, guesses: Floats, which: Which, eye: Floats) -> Floats:
-        """The share (g,) of the points that are on sides of the thing which the eye can see."""
+        """(g,) the fraction of points on sides of the object that face the camera."""
         local = self._local(guesses)
         _, grows = self._with_gradient(local, which)
         to_eye = _turned(guesses, np.broadcast_to(eye[:, None], (3, 1))) - local
@@ -250,23 +258,23 @@ class _Surface:
         return share
 
     def _with_gradient(self, local: Floats, which: Which) -> tuple[Floats, Floats]:
-        """Distances (g, n), and how they grow (g, 3, n) in the frame of the thing that lies."""
+        """Distances (g, n), and their gradients (g, 3, n) in the frame of the lying object."""
         distances, grows = self._distance.with_gradient(_columns(self._standing(local, which)))
         standing = grows.reshape(3, len(local), -1).transpose(1, 0, 2)
         return distances.reshape(len(local), -1), self._falls[which].transpose(0, 2, 1) @ standing
 
     def _local(self, guesses: Floats) -> Floats:
-        """The points (g, 3, n) in the frame of a thing at each guess."""
+        """The points (g, 3, n) in the frame of the lying object at each guess."""
         return _turned(guesses, self._points)
 
     def _standing(self, local: Floats, which: Which) -> Floats:
-        """The same in the frame of the thing as it would stand."""
+        """The points (g, 3, n) in the frame of the upright object."""
         stood: Floats = self._falls[which] @ (local + self._bases[which][:, :, None])
         return stood
 
 
 def _turned(guesses: Floats, points: Floats) -> Floats:
-    """Points (3, n) of `map` in the frames (g, 3, n) of things at some guesses."""
+    """Transform points (3, n) from `map` to the frames at guesses: (g, 3, n)."""
     off = points[None] - guesses[:, :3, None]
     cos, sin = np.cos(guesses[:, 3:]), np.sin(guesses[:, 3:])
     x, y = off[:, 0].copy(), off[:, 1].copy()
@@ -276,5 +284,5 @@ def _turned(guesses: Floats, points: Floats) -> Floats:
 
 
 def _columns(points: Floats) -> Floats:
-    """Points (g, 3, n) side by side (3, g * n)."""
+    """Reshape points (g, 3, n) to (3, g * n)."""
     return points.transpose(1, 0, 2).reshape(3, -1)

@@ -1,4 +1,4 @@
-"""A way between two points around what is not free: RRT-Connect and path simplification by OMPL."""
+"""Plans a collision-free path between two points with OMPL's RRT-Connect, and simplifies it."""
 
 from collections.abc import Callable
 
@@ -10,7 +10,7 @@ from executive.geometry import Floats
 Free = Callable[[Floats], bool]
 
 _STEP = 8.0
-"""How far a tree grows at once."""
+"""The longest extension of a tree in one step."""
 _SEED = 1
 
 util.noOutputHandler()
@@ -19,17 +19,17 @@ util.noOutputHandler()
 def connect(
     start: Floats, goal: Floats, lower: Floats, upper: Floats, free: Free, samples: int
 ) -> list[Floats] | None:
-    """Points to pass in straight lines from start to goal, both included; None if none are found.
+    """Points joined by straight lines from start to goal, both included; None if none are found.
 
-    The same question has always the same answer.
+    The result is deterministic.
 
     Args:
-        start: the first point, free.
-        goal: the last point, free.
-        lower: bounds of the space.
-        upper: bounds of the space.
-        free: whether a point is; asked at least once for each unit of length.
-        samples: random points that are tried, at most.
+        start: the first point (k,), which must be free.
+        goal: the last point (k,), which must be free.
+        lower: lower bounds (k,) of the space.
+        upper: upper bounds (k,) of the space.
+        free: whether a point is free; called at least once per unit of length.
+        samples: the most random samples.
     """
     util.RNG.setSeed(_SEED)
     space = _box(lower, upper)
@@ -53,7 +53,7 @@ def connect(
 
 
 class _Asked:
-    """Answers OMPL; what is raised meanwhile must not go through its C++, but afterwards."""
+    """OMPL's callback; keeps an exception, which must not pass through C++, and raises it later."""
 
     def __init__(self, free: Free, size: int) -> None:
         self._free = free
@@ -73,13 +73,13 @@ class _Asked:
         return False
 
     def check(self) -> None:
-        """Raise what was raised."""
+        """Raise the exception of the callback, if there was one."""
         if self._error is not None:
             raise self._error
 
 
 def _box(lower: Floats, upper: Floats) -> base.RealVectorStateSpace:
-    """The space between the bounds, where a line is checked once for each unit of length."""
+    """The space between the bounds; OMPL checks lines in it once per unit of length."""
     space = base.RealVectorStateSpace(len(lower))
     bounds = base.RealVectorBounds(len(lower))
     for i, (low, high) in enumerate(zip(lower, upper, strict=True)):

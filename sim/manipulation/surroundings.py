@@ -1,4 +1,4 @@
-"""What is around the arm: furniture, what stands or lies there, and where the robot may stand."""
+"""The arm's surroundings: furniture, objects that the camera sees, and where the base can stand."""
 
 from collections.abc import Callable, Iterator
 
@@ -17,13 +17,13 @@ from sim.manipulation.reaching import floor_poses, plan_stance, standing_poses
 from sim.objects.objects import ObjectModel
 
 _BEFORE_M = 0.6
-"""Farther than this from where one stands to use a piece of furniture, nothing on it is tried."""
+"""The robot uses furniture only if it is this near to the pose for using it."""
 _ON_FLOOR_M, _NEAR_M = 0.3, 2.5
-"""What is lower than this and as near as this may be picked up from the floor."""
+"""Objects this low and this near can be picked up from the floor."""
 
 
 class Surroundings:
-    """Joins the map of the home with what the depth camera sees."""
+    """Combines the map of the home with the points of the depth camera."""
 
     def __init__(
         self,
@@ -32,17 +32,18 @@ class Surroundings:
         home: Home,
         scan: Callable[[], Floats],
     ) -> None:
-        """Use these parts; `scan` gives the points (n, 3) in `map` that the depth camera sees."""
+        """Use these parts; `scan` returns the points (n, 3) in `map` that the camera sees now."""
         self._hardware = hardware
         self._planning = planning
         self._home = home
         self.scan = scan
 
     def furniture_below(self, points: Floats) -> Furniture | None:
-        """The piece of furniture that something seen is on; None if it lies on the floor here.
+        """The furniture that an object with these visible points is on; None if it is on the floor.
 
         Raises:
-            CannotError: if it is neither on furniture that the robot stands before, nor near.
+            CannotError: if it is out of reach: not on furniture in front of the robot, and not on
+                the floor nearby.
         """
         middle = np.median(points, axis=0)
         x, y, _ = self._hardware.base_pose
@@ -58,7 +59,12 @@ class Surroundings:
         return None
 
     def rising_near(self, model: ObjectModel, points: Floats) -> Floats:
-        """All that is seen of a thing on the floor of which points (n, 3) were seen before."""
+        """The points (m, 3) that the camera sees now near an object on the floor.
+
+        Args:
+            model: the object.
+            points: (n, 3) points of it that were seen before.
+        """
         x, y, _ = np.median(points, axis=0)
         seen = self.scan()
         near = np.hypot(seen[:, 0] - x, seen[:, 1] - y) < max(model.size)
@@ -68,9 +74,14 @@ class Surroundings:
         return closely if len(closely) > len(points) else points
 
     def mind_clutter(self, piece: Furniture | None, target: Floats, seen: Floats) -> None:
-        """Plan around what stands on the furniture: `seen` less what is near `target` (both n, 3).
+        """Make the planner avoid what stands on the furniture.
 
-        To be computed: see `Thinker`.
+        This changes the planning world: run it in a `Thinker`.
+
+        Args:
+            piece: the furniture; None for the floor, where no obstacles are added.
+            target: points (n, 3) in `map` of the object that the hand reaches for.
+            seen: all points (n, 3) in `map` that the depth camera sees.
         """
         near: list[Column] = []
         others: list[Column] = []
@@ -82,9 +93,10 @@ class Surroundings:
     def stances(
         self, piece: Furniture | None, target: Floats, here: Floats
     ) -> Iterator[list[Floats]]:
-        """Ways of the base from here to where a point on the furniture or the floor is in reach.
+        """Ways of the base from `here` to poses from which a point is in reach.
 
-        To be computed: see `Thinker`.
+        The point is on furniture, or on the floor if `piece` is None. This takes long: run it in a
+        `Thinker`.
         """
         for base in standing_poses(piece, target) if piece else floor_poses(here, target):
             way = plan_stance(self._planning, here, base)
@@ -93,7 +105,7 @@ class Surroundings:
 
 
 def support(piece: Furniture | None, points: Floats) -> float:
-    """How high the surface is that something seen rests on (metres)."""
+    """The height of the surface that an object with these visible points rests on (metres)."""
     middle = float(np.median(points[:, 2]))
     heights = [0.0, *(surface.center[2] for surface in piece.surfaces())] if piece else [0.0]
     return max(height for height in heights if height <= middle + CELL_M)

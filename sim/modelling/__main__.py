@@ -11,7 +11,7 @@ from sim.objects.objects import ASSETS, drawings, load_objects
 
 
 def recipe(name: str) -> Callable[[], list[Part]]:
-    """The function of the object's name, in the module that objects.toml says."""
+    """The function that builds an object, from the module that objects.toml gives."""
     module = import_module(f"{__package__}.{drawings()[name]}")
     found: Callable[[], list[Part]] = getattr(module, name)
     return found

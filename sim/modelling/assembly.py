@@ -1,4 +1,4 @@
-"""Parts into one mesh with one texture, at the size that objects.toml gives, and into files."""
+"""Joins parts to one mesh with one texture, at the size in objects.toml, and writes its files."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -70,7 +70,7 @@ def _fitted(parts: Sequence[Part], model: ObjectModel) -> tuple[Floats, Floats]:
 
 
 def _normals(part: Part) -> Floats:
-    """Smooth within a part, where points coincide, too; sharp between parts."""
+    """Vertex normals: smooth within a part, also where points coincide; sharp between parts."""
     _, same = np.unique(part.points.round(7), axis=0, return_inverse=True)
     corners = part.points[part.faces]
     facing = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -82,7 +82,7 @@ def _normals(part: Part) -> Floats:
 
 
 def _atlas(parts: Sequence[Part]) -> tuple[Image.Image, Floats]:
-    """All skins in one picture, and where each point of each part is in it."""
+    """A texture atlas of all skins, and the texture coordinates of all points of each part."""
     skins = list({id(part.skin): part.skin for part in parts}.values())
     skins.sort(key=lambda skin: skin.height, reverse=True)
     area = sum(skin.width * skin.height for skin in skins)
@@ -100,7 +100,7 @@ def _atlas(parts: Sequence[Part]) -> tuple[Image.Image, Floats]:
 
 
 def _placed(part: Part, corner: tuple[int, int], atlas: Image.Image) -> Floats:
-    """Texture coordinates, half a pixel inside the skin so that its neighbours do not show."""
+    """Texture coordinates, half a pixel inside the skin, so that its neighbours do not bleed in."""
     size = np.array(part.skin.size)
     across = (
         np.array(corner) + 0.5 + np.column_stack((part.uv[:, 0], 1 - part.uv[:, 1])) * (size - 1)

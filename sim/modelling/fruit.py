@@ -1,6 +1,6 @@
-"""Fruit, and the tennis ball that may be taken for one: round things without any print.
+"""Meshes of fruit, and of the tennis ball, which looks similar: round objects without print.
 
-Apple, peach and orange are alike in shape and size, as the real ones are.
+Apple, peach and orange have similar shapes and sizes, as real ones do.
 """
 
 import numpy as np

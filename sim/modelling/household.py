@@ -1,4 +1,4 @@
-"""The mug, the pitcher and the wood blocks."""
+"""Meshes of the mug, the pitcher and the wood blocks."""
 
 import numpy as np
 from PIL.Image import Image

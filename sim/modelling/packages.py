@@ -1,4 +1,4 @@
-"""Boxes, cans and bottles, told apart by their print."""
+"""Meshes of boxes, cans and bottles, which differ mainly in their print."""
 
 import numpy as np
 

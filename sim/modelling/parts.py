@@ -1,7 +1,7 @@
-"""The pieces that a mesh is made of: boxes, prisms, and skins drawn over rings of points.
+"""The parts of a mesh: boxes, prisms, and textured surfaces over rings of points.
 
-A ring is a closed line of points (n, 3). Rings that are stacked upwards run counterclockwise seen
-from above and begin behind (-x), so that the middle of a skin faces the front (+x).
+A ring is a closed line of points (n, 3). Rings that are stacked upwards run counterclockwise as
+seen from above, and begin at the back (-x), so that the centre of a skin faces the front (+x).
 """
 
 from collections.abc import Sequence
@@ -17,18 +17,18 @@ from scipy.spatial.transform import Rotation
 from executive.geometry import Floats
 
 AROUND = 20
-"""Points of a round ring."""
+"""Number of points of a round ring."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Part:
-    """A smooth surface with one picture on it.
+    """A smooth surface with a texture.
 
     Attributes:
         points: (n, 3), metres.
-        faces: (m, 3) indices of points, counterclockwise seen from outside.
-        uv: (n, 2), where each point is in the picture: from left, from the bottom, 0 to 1.
-        skin: the picture.
+        faces: (m, 3) indices of points, counterclockwise as seen from outside.
+        uv: (n, 2) texture coordinates of the points: from left and from the bottom, 0 to 1.
+        skin: the texture.
     """
 
     points: Floats
@@ -45,7 +45,7 @@ class Part:
 def ring(
     width_x: float, width_y: float, z: float, roundness: float = 1.0, count: int = AROUND
 ) -> Floats:
-    """A level ring around the z axis.
+    """A horizontal ring around the z axis.
 
     Args:
         width_x: its extent along x (metres).
@@ -53,7 +53,7 @@ def ring(
         z: its height.
         roundness: 1 for an ellipse, towards 0 for a rectangle (a superellipse of exponent
             2 / roundness).
-        count: points.
+        count: number of points.
     """
     angles = np.linspace(-np.pi, np.pi, count, endpoint=False)
     if roundness < 1:
@@ -64,7 +64,7 @@ def ring(
 
 
 def loft(rings: Sequence[Floats] | Floats, skin: Image) -> Part:
-    """A skin over rings of equally many points: once around from left to right, bottom to top."""
+    """A surface over rings of equally many points; the skin wraps around once, left to right."""
     grid = np.asarray(rings)
     grid = np.concatenate((grid, grid[:, :1]), axis=1)
     rows, columns = grid.shape[:2]
@@ -79,7 +79,7 @@ def loft(rings: Sequence[Floats] | Floats, skin: Image) -> Part:
 
 
 def cap(edge: Floats, skin: Image, up: bool = True) -> Part:
-    """A flat lid on a ring that is star-shaped around its middle, seen as from the front."""
+    """A flat lid on a ring, star-shaped around its centre; the skin is upright from the front."""
     points = np.concatenate((edge, [edge.mean(axis=0)]))
     low, extent = edge.min(axis=0), np.ptp(edge, axis=0)
     across = (points - low) / np.where(extent > 0, extent, 1.0)
@@ -96,16 +96,16 @@ def solid(rings: Sequence[Floats], skin: Image, lid: Image) -> list[Part]:
 
 
 def lathe(profile: ArrayLike, skin: Image, steps: int = 0, count: int = AROUND) -> Part:
-    """A profile of (radius, z), from below outwards and up, turned around the z axis.
+    """The surface of revolution of a profile (n, 2) of (radius, z), from bottom to top.
 
-    With `steps` it is a smooth curve through the points, else straight lines.
+    With `steps`, the profile is a smooth curve of that many points, else straight lines.
     """
     line = smooth(profile, steps) if steps else np.asarray(profile, dtype=np.float64)
     return loft([ring(2 * r, 2 * r, z, count=count) for r, z in line], skin)
 
 
 def smooth(points: ArrayLike, steps: int) -> Floats:
-    """A curve of so many points through the given ones (n, k), without overshooting."""
+    """A curve of `steps` points through given ones (n, k), without overshooting."""
     given = np.asarray(points, dtype=np.float64)
     way = _progress(given)
     return np.asarray(PchipInterpolator(way, given)(np.linspace(0, 1, steps)))
@@ -126,7 +126,7 @@ def sweep(
     count: int = 12,
     ends: Image | None = None,
 ) -> list[Part]:
-    """A skin around a spine that lies in a plane of constant x or of constant z.
+    """A surface around a spine, which lies in a plane of constant x or of constant z.
 
     Args:
         spine: (n, 3), metres.
@@ -134,7 +134,7 @@ def sweep(
         skin: drawn once around and along the spine.
         roundness: see `ring`.
         count: points of each cross-section.
-        ends: on flat lids at both ends; without, the spine is closed to a loop.
+        ends: the skin of flat lids at both ends; None: the spine is closed to a loop.
     """
     line = np.asarray(spine, dtype=np.float64)
     along = (
@@ -155,7 +155,7 @@ def sweep(
 
 
 def prism(outline: ArrayLike, low: float, high: float, side: Image, top: Image) -> list[Part]:
-    """An outline (n, 2), counterclockwise and star-shaped, from z = `low` to `high`."""
+    """A prism from z = `low` to `high`; its outline (n, 2) is counterclockwise and star-shaped."""
     flat = np.asarray(outline, dtype=np.float64)
     below, above = (np.column_stack((flat, np.full(len(flat), z))) for z in (low, high))
     walls = [
@@ -166,7 +166,7 @@ def prism(outline: ArrayLike, low: float, high: float, side: Image, top: Image) 
 
 
 def box(size: ArrayLike, at: ArrayLike, *skins: Image) -> list[Part]:
-    """A box with pictures: front and back, left and right, top and bottom; or one for all."""
+    """A box with skins for front and back, left and right, top and bottom; or one for all."""
     front, side, top = skins if len(skins) == 3 else skins * 3
     middle = np.asarray(at, dtype=np.float64)
     x, y, z = np.diag(np.asarray(size, dtype=np.float64) / 2)
@@ -193,7 +193,7 @@ def _quad(corners: Floats, skin: Image) -> Part:
 
 
 def _part(points: Floats, faces: NDArray[np.int64], uv: Floats, skin: Image) -> Part:
-    """The part without the triangles that have no area."""
+    """The part without triangles of zero area."""
     corners = points[faces]
     area = np.linalg.norm(
         np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
@@ -202,7 +202,7 @@ def _part(points: Floats, faces: NDArray[np.int64], uv: Floats, skin: Image) -> 
 
 
 def _progress(line: Floats) -> Floats:
-    """How far along an open line (n, k) each point is, 0 to 1."""
+    """(n,) the relative length of an open line (n, k) up to each point, 0 to 1."""
     steps = np.linalg.norm(np.diff(line, axis=0), axis=1)
     way = np.concatenate(([0.0], np.cumsum(steps)))
     return np.asarray(way / way[-1])

@@ -1,7 +1,7 @@
-"""Pictures for the surfaces of things: printed labels, and materials with their irregularities.
+"""Textures for the surfaces of objects: printed labels, and materials with irregularities.
 
-Lengths are in millimetres of the thing's surface; the origin of a picture is its upper left corner.
-Everything is drawn from code with fixed seeds, without foreign pictures or brands.
+Lengths are in millimetres on the object's surface; the origin of a picture is its upper left
+corner. Everything is drawn by code with fixed seeds, without pictures or brands of others.
 """
 
 from collections.abc import Sequence
@@ -14,7 +14,7 @@ from PIL import Image, ImageColor, ImageDraw, ImageFont
 DENSITY = 1.5
 """Pixels per millimetre."""
 _FINE = 4
-"""Labels are drawn so many times finer, then reduced."""
+"""Labels are drawn with this many times the resolution, then reduced."""
 
 
 class Label:
@@ -73,7 +73,7 @@ def plain(color: str) -> Image.Image:
 
 
 def blend(colors: Sequence[str], weight: NDArray[np.float64]) -> Image.Image:
-    """From the first colour where the weight (height, width) is 0 to the last where it is 1."""
+    """Interpolate colours by a weight (height, width): 0 gives the first, 1 the last."""
     inks = np.array([ImageColor.getrgb(color)[:3] for color in colors], dtype=np.float64)
     stops = np.linspace(0, 1, len(colors))
     channels = [np.interp(weight, stops, inks[:, channel]) for channel in range(3)]
@@ -83,7 +83,7 @@ def blend(colors: Sequence[str], weight: NDArray[np.float64]) -> Image.Image:
 def noise(
     width: float, height: float, patch: tuple[float, float], seed: int
 ) -> NDArray[np.float64]:
-    """Smooth irregularity from 0 to 1 with patches of this size; left and right ends meet."""
+    """Smooth noise from 0 to 1 with patches of this size; left and right edges match."""
     size = (round(width * DENSITY), round(height * DENSITY))
     coarse = (max(2, round(width / patch[0])), max(2, round(height / patch[1])))
     values = np.random.default_rng(seed).random((coarse[1], coarse[0]))
@@ -109,7 +109,7 @@ def brushed(colors: Sequence[str], width: float, height: float, seed: int = 0) -
 
 
 def gradient(width: float, height: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """How far each pixel is from the left, and how far from the bottom (0 to 1)."""
+    """The position of each pixel from the left and from the bottom (0 to 1)."""
     columns, rows = round(width * DENSITY), round(height * DENSITY)
     across, down = np.meshgrid(np.linspace(0, 1, columns), np.linspace(0, 1, rows))
     return across, 1 - down

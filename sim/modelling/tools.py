@@ -1,4 +1,4 @@
-"""Tools, as they lie; the drill stands on its battery."""
+"""Meshes of tools, lying; the drill stands on its battery."""
 
 import numpy as np
 from numpy.typing import ArrayLike

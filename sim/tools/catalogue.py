@@ -15,16 +15,16 @@ from sim.objects.objects import ObjectModel
 
 COLUMNS = 6
 CELL = 240
-"""Pixels of a picture's side."""
+"""Side of a picture (pixels)."""
 CAPTION = 44
 _FINER = 3
-"""Pictures are rendered so many times finer, then reduced."""
+"""Pictures are rendered with this many times the resolution, then reduced."""
 _PAPER = (250, 250, 248)
 _INK, _FAINT = (30, 30, 30), (110, 110, 110)
 _HFOV = np.radians(30.0)
 _AZIMUTH, _ELEVATION, _STEEP = np.radians((32.0, 28.0, 52.0))
 _FLAT = 0.35
-"""What is so much lower than wide is looked at more from above."""
+"""Objects with a smaller ratio of height to width are shown from a steeper angle."""
 
 
 def contact_sheet(models: Iterable[ObjectModel]) -> Image.Image:

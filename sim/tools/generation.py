@@ -1,6 +1,6 @@
-"""Homes of any size, drawn by chance: rooms side by side, furniture along their walls.
+"""Generates random homes of any size: rooms side by side, with furniture along their walls.
 
-The same numbers and seed give the same home. What is drawn is what a home file holds.
+The same numbers and seed give the same home. The result has the tables of a home file.
 """
 
 import re
@@ -43,7 +43,7 @@ SIZES: dict[str, tuple[tuple[float, float, float], list[float]]] = {
     "Sofa": ((0.85, 1.80, 0.85), [0.42]),
     "Bed": ((1.40, 2.05, 0.50), []),
 }
-"""Depth, width and height, and heights of the boards, of a piece of each kind (metres)."""
+"""(depth, width, height) and heights of the boards of furniture, by kind (metres)."""
 
 FURNITURE_OF_ROOM = {
     "LivingRoom": ("Sofa", "CoffeeTable", "TvStand", "Bookshelf", "SideTable", "Sideboard"),
@@ -58,19 +58,19 @@ FURNITURE_OF_ROOM = {
     "LaundryRoom": ("Counter", "Shelf", "Cabinet", "Wagon"),
     "StorageRoom": ("Shelf", "Cabinet", "Table", "Wagon"),
 }
-"""What stands in a room of each kind; small homes have the first rooms and the first pieces."""
+"""Kinds of furniture by kind of room; small homes have the first rooms and the first pieces."""
 
 LONGEST_ACROSS_M = 0.25
-"""What is longer is turned, not to lie across the front."""
+"""Objects wider than this are turned by a quarter, so that they do not lie across the front."""
 
 DOOR_M = 1.1
 SMALLEST_ROOM_M = 4.4
-"""So wide that its middle stays free whatever stands along the walls."""
+"""Wide enough for its centre to stay free with furniture along all walls."""
 _WALL_M = 0.06
-"""From the edge of a room to the back of a piece."""
+"""Distance from the edge of a room to the back of furniture."""
 _BESIDE_M = 0.05
 _STAND_M = STAND_OFF_M + FOOTPRINT_M + 0.1
-"""How far the floor before a piece is kept free."""
+"""Depth of the free floor in front of furniture."""
 _TRIES = 300
 
 Rectangle = tuple[float, float, float, float]
@@ -79,15 +79,15 @@ Table = dict[str, Any]
 
 
 def generate_home(rooms: int, furniture: int, seed: int) -> str:
-    """The text of a home file in which the robot can get everywhere.
+    """The text of a home file in which the robot can reach every place.
 
     Args:
-        rooms: how many, at most MOST_ROOMS.
-        furniture: how many pieces, the delivery table not counted.
-        seed: another one gives another home.
+        rooms: number of rooms, at most MOST_ROOMS.
+        furniture: number of pieces, without the delivery table.
+        seed: of the random choices.
 
     Raises:
-        InputError: if there cannot be such a home.
+        InputError: if the numbers are out of range.
     """
     least, most = max(LEAST_FURNITURE, rooms), MOST_IN_A_ROOM * rooms
     if not 1 <= rooms <= MOST_ROOMS:
@@ -111,7 +111,7 @@ def _is_sound(tables: Table) -> bool:
 
 
 def _draw(rng: Random, rooms: int, furniture: int, side: float) -> Table | None:
-    """A home with rooms at least `side` long and wide (metres); None if not all found a place."""
+    """A random home with rooms of at least `side` metres; None if not everything has room."""
     cells = _cells(rng, rooms, side)
     plan = _rooms(rng, cells)
     doors = list(_doors(rng, cells))
@@ -154,7 +154,7 @@ def _cells(rng: Random, rooms: int, side: float) -> dict[tuple[int, int], Rectan
 
 
 def _rooms(rng: Random, cells: Mapping[tuple[int, int], Rectangle]) -> list[Table]:
-    """The rooms of the file; those of a kind that there is more than once are numbered."""
+    """The rooms of the file; rooms of the same kind are numbered."""
     kinds = list(islice(cycle(FURNITURE_OF_ROOM), len(cells)))
     total = Counter(kinds)
     rng.shuffle(kinds)
@@ -168,7 +168,7 @@ def _rooms(rng: Random, cells: Mapping[tuple[int, int], Rectangle]) -> list[Tabl
 
 
 def _doors(rng: Random, cells: Mapping[tuple[int, int], Rectangle]) -> Iterator[Table]:
-    """Doors that connect all rooms, and a few more that make rounds possible."""
+    """Doors that connect all rooms, and a few more, so that there are loops."""
     pairs = [((x, y), b) for x, y in cells for b in ((x + 1, y), (x, y + 1)) if b in cells]
     rng.shuffle(pairs)
     group = {cell: cell for cell in cells}
@@ -185,7 +185,7 @@ def _doors(rng: Random, cells: Mapping[tuple[int, int], Rectangle]) -> Iterator[
 
 
 def _pieces(walls: Mapping[str, "_Walls"], rooms: list[Table], number: int) -> Iterator[Table]:
-    """Furniture for the rooms in turn, as far as it finds a place."""
+    """Furniture for the rooms in turn, as far as there is room for it."""
     names: Counter[str] = Counter()
     for index in range(number):
         room = rooms[index % len(rooms)]
@@ -204,10 +204,10 @@ def _pieces(walls: Mapping[str, "_Walls"], rooms: list[Table], number: int) -> I
 
 
 class _Walls:
-    """The free stretches along the walls of a room."""
+    """The free space along the walls of a room."""
 
     def __init__(self, rng: Random, room: Rectangle, doors: list[Table]) -> None:
-        """Keep the floor before the room's doors free."""
+        """Begin with no furniture; the floor in front of doors stays free."""
         self._rng = rng
         self._room = room
         self._taken: list[Rectangle] = []
@@ -215,7 +215,7 @@ class _Walls:
         self._kept = [(x - reach, y - reach, x + reach, y + reach) for x, y in _positions(doors)]
 
     def put(self, size: tuple[float, float, float]) -> list[float] | None:
-        """Pose in the file's units of a piece that found a place with its back to a wall."""
+        """Find room for furniture along a wall; its pose in the file's units, or None."""
         depth, width, _ = size
         aside = min(width / 2, 0.5) + FOOTPRINT_M
         for _ in range(_TRIES):
@@ -236,7 +236,7 @@ class _Walls:
         return None
 
     def _before(self, yaw: int, along: float, half: float, near: float, far: float) -> Rectangle:
-        """The floor from `near` to `far` before the wall that `yaw` points away from."""
+        """The floor at distances `near` to `far` from the wall that `yaw` points away from."""
         left, lower, right, upper = self._room
         if yaw == 0:
             return left + near, along - half, left + far, along + half
@@ -248,7 +248,7 @@ class _Walls:
 
 
 def _objects(rng: Random, home: Home) -> Table | None:
-    """A place for every object, on top of furniture in a room where it belongs if there is one."""
+    """Spots for all objects, on top of furniture, in a room where they belong if there is one."""
     models = load_objects()
     surfaces = {piece.name: piece.surfaces()[:1] for piece in home.furniture}
     kinds = {room.name: room.kind for room in home.rooms}
