@@ -1,4 +1,4 @@
-"""The mission as one mcap file, for Foxglove, rerun and `logs.recording.reader`."""
+"""Writes the mission to one mcap file, for Foxglove, rerun and `logs.recording.reader`."""
 
 import mimetypes
 import os
@@ -17,7 +17,7 @@ from logs.recording.channels import OF_KIND, TOPICS, Channel, most_in
 from logs.recording.context import Context, nanoseconds
 
 CHUNK_BYTES = 256 * 1024
-"""Larger chunks compress better but stall the writer (and lose more if the process is killed)."""
+"""Larger chunks compress better, but stall the writer (and lose more if the process is killed)."""
 
 _MEDIA_TYPES = {".owl": "application/rdf+xml", ".toml": "application/toml"}
 
@@ -25,7 +25,7 @@ _MEDIA_TYPES = {".owl": "application/rdf+xml", ".toml": "application/toml"}
 class McapSink:
     """Writes an mcap file; `log_time` is run start + mission time.
 
-    A picture's pose becomes `camera_optical` in `map` unless the robot publishes that frame.
+    The pose of a picture becomes `camera_optical` in `map`, unless the robot publishes that frame.
     """
 
     def __init__(
@@ -38,9 +38,9 @@ class McapSink:
         """Create the file.
 
         Args:
-            path: where; an existing file is replaced.
+            path: the file; an existing one is replaced.
             started: wall time at mission time 0 (with time zone).
-            attachments: files to keep with the run, by name: ontology, configuration.
+            attachments: files to store with the run, by name: ontology, configuration.
             metadata: facts about the run: seed, versions, model.
         """
         origin_ns = nanoseconds(started)
@@ -65,9 +65,9 @@ class McapSink:
         self.flush()
 
     def write(self, stamp: Stamp, record: Record) -> None:
-        """Write a record to its topic or topics; the first is flushed, and all topics with it.
+        """Write a record to its topics; the first record is flushed, with all topics declared.
 
-        Of a record that cannot be encoded nothing is written.
+        If a record cannot be encoded, none of its messages is written.
         """
         context = self._context
         context.now(stamp)
@@ -82,7 +82,7 @@ class McapSink:
             self.flush()
 
     def flush(self) -> None:
-        """Finish the chunk and have it written to the disk: it survives process and power."""
+        """Finish the chunk and sync it to the disk, to survive a crash or a power failure."""
         self._writer.flush()
         os.fsync(self._file.fileno())
 
@@ -95,7 +95,7 @@ class McapSink:
 
 
 def _encoded(record: Record, context: Context) -> list[tuple[str, bytes]]:
-    """Topic and bytes of all messages that a record becomes."""
+    """Topic and bytes of all messages of a record."""
     told = [(channel, channel.encode(record, context)) for channel in OF_KIND[type(record)]]
     return [(c.topic, _bytes(c, message)) for c, message in told if message is not None]
 
@@ -110,7 +110,7 @@ def _bytes(channel: Channel[Any], message: Any) -> bytes:
 
 
 def _check_reads(channel: Channel[Any], message: Any) -> None:
-    """What does not read must not be written: it would cost the rest."""
+    """Raise if a message could not be read back: in a file, it would make the rest unreadable."""
     if channel.decode is not None:
         channel.decode(message)
 

@@ -1,4 +1,4 @@
-"""The mission as a rerun recording, saved for replay and shown live if wished."""
+"""Writes the mission as a rerun recording, to a file, live to a viewer, or both."""
 
 import atexit
 import threading
@@ -46,7 +46,7 @@ from logs.viewer.tree import TreeView
 
 APPLICATION = "robot-executive"
 FLUSH_S = 5.0
-"""How long a flush may take."""
+"""Time limit of a flush (s)."""
 
 _SPEAKERS = {"person": (120, 190, 255), "robot": (255, 200, 90)}
 
@@ -54,20 +54,20 @@ _SPEAKERS = {"person": (120, 190, 255), "robot": (255, 200, 90)}
 class RerunSink:
     """Writes an .rrd file, shows the mission in a viewer, or both.
 
-    Timelines: `mission_time` (to the millisecond), `wall_time` and `tick`. The file carries its own
+    Timelines: `mission_time` (to the millisecond), `wall_time` and `tick`. The file contains its
     blueprint.
     """
 
     def __init__(self, path: Path | None, *, view: bool = False) -> None:
-        """Open the recording, named after the folder that it lies in.
+        """Open the recording, named after its folder.
 
         Args:
-            path: the .rrd file, or None to write none.
+            path: the .rrd file; None to write none.
             view: whether to start a viewer and show the mission live.
 
         Raises:
             ExecutiveError: if the viewer does not start.
-            OSError: if the file cannot be opened, or that does not end.
+            OSError: if the file cannot be opened in time.
         """
         self._path = path
         self._viewer = program.start() if view else None
@@ -100,7 +100,7 @@ class RerunSink:
         self._unwritten = Unwritten(type(self).__name__)
 
     def write(self, stamp: Stamp, record: Record) -> None:
-        """Log a record where the blueprint looks for it; what comes often, with the next flush."""
+        """Log a record where the blueprint expects it; frequent ones wait for the next flush."""
         moment = Moment(round(stamp.mission_s * 1e3) * 1_000_000, stamp.wall_ns, self._tick)
         if isinstance(record, Transforms):
             self._moved += [At(moment, transform) for transform in record.transforms]
@@ -144,21 +144,21 @@ class RerunSink:
                 assert_never(record)
 
     def flush(self) -> None:
-        """Bring everything to the file and the viewer."""
+        """Send everything to the file and the viewer."""
         self._send_kept()
         try:
             self._stream.flush(timeout_sec=FLUSH_S)
         except RuntimeError:
             if self._viewer is None:
                 raise
-            # The viewer was closed: no reason to end the file.
+            # The viewer was closed, which is no reason to end the file.
 
     def close(self) -> None:
         """Write the footer and close the file.
 
         Raises:
-            OSError: if that does not end, or the file is not whole then, of which rerun itself says
-                nothing to us.
+            OSError: if this takes too long, or the file is incomplete then, which rerun does not
+                report.
         """
         self._send_kept()
         _within(FLUSH_S, self._let_go, "rerun does not finish its file")
@@ -166,7 +166,7 @@ class RerunSink:
             raise OSError("rerun has not finished its file")
 
     def _let_go(self) -> None:
-        """Disconnect, and end the threads that rerun keeps for a stream until it is asked to."""
+        """Disconnect, and end the threads that rerun keeps for each stream."""
         self._stream.disconnect()
         self._tree = None
         del self._stream, self._candidates
@@ -210,7 +210,7 @@ class RerunSink:
         self._stream.log(f"{blueprint.LOG}/events", rr.TextLog(text, level="DEBUG"))
 
     def _send_kept(self) -> None:
-        """Send frames and pictures together: many rows cost rerun hardly more than one."""
+        """Send frames and pictures in batches: many rows cost rerun hardly more than one."""
         moved, taken = self._moved, self._taken
         self._moved, self._taken = [], []
         try:
@@ -230,10 +230,10 @@ class RerunSink:
 
 
 def _within(seconds: float, do: Callable[[], None], fault: str) -> None:
-    """Do it, but wait no longer: rerun may wait for ever for a disk that is full.
+    """Call a function with a time limit: on a full disk, rerun may wait forever.
 
     Raises:
-        OSError: if it does not end, or fails.
+        OSError: if it fails or takes too long.
     """
     failed: list[Exception] = []
 
