@@ -162,7 +162,7 @@ class Between:
             before.append(likely)
             where = to[self.thing[at], self.slot[at, step]]
             likely = likely * (1 - go) + np.einsum("as,ast->at", likely * go, where)
-            fits = self._fits(at, step)
+            fits = self._likelihoods(at, step)
             likely = likely * fits
             total = likely.sum(axis=1, keepdims=True)
             seen.append(fits / total)
@@ -175,7 +175,7 @@ class Between:
         thing, slot = self.thing[at], self.slot[at, step]
         return at, thing * SLOTS + slot, goes(leaving[thing, slot], self.hours[at, step, None])
 
-    def _fits(self, at: NDArray[np.intp], step: int) -> Floats:
+    def _likelihoods(self, at: NDArray[np.intp], step: int) -> Floats:
         """(intervals, n) likelihood of what was seen after a step, given each place."""
         fits = np.ones((len(at), self.size))
         missed = np.flatnonzero(self.absent[at, step] >= 0)

@@ -98,7 +98,7 @@ def learned(intervals: Sequence[Interval], classes: Callable[[str], str]) -> Rat
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Found:
+class _Estimate:
     """Rates (24,) of all things, (kinds, 24) of classes, (things, SLOTS, n, n) of each thing."""
 
     of_all: Floats
@@ -119,7 +119,7 @@ class _General:
         self._known = (np.arange(between.size) < count[:, None])[:, None]
         self._ways = self._known.swapaxes(1, 2) & self._known & ~np.eye(between.size, dtype=bool)
 
-    def rates(self, moves: Moves) -> _Found:
+    def rates(self, moves: Moves) -> _Estimate:
         """The M step: moves / hours, each rate shrunk towards a more general one."""
         by_kind_of_day = len(moves.spent), KINDS_OF_DAY, HOURS
         taken = moves.taken.reshape(*by_kind_of_day, *self._ways.shape[1:])
@@ -129,23 +129,23 @@ class _General:
         any_day, there = taken.sum(axis=1), spent.sum(axis=1)
         left, watched = any_day.sum(axis=(2, 3)), there.sum(axis=2)
         # to anywhere: of all things, of each class
-        of_all = _drawn(left.sum(axis=0), watched.sum(axis=0), UNSEEN_PER_DAY / HOURS)
-        of_class = _drawn(self._members @ left, self._members @ watched, of_all)
+        of_all = _shrunk(left.sum(axis=0), watched.sum(axis=0), UNSEEN_PER_DAY / HOURS)
+        of_class = _shrunk(self._members @ left, self._members @ watched, of_all)
         # of each thing: to each place from anywhere, from each place on any day, on such a day
         usual = of_class[self._kind]
         to_each = (usual / self._others[:, None])[:, :, None]
-        to = _drawn(any_day.sum(axis=2), watched[:, :, None] - there, to_each) * self._known
-        on_any_day = _drawn(any_day, there[..., None], to[:, :, None, :], FROM_DAYS)
-        rate = _drawn(taken, spent[..., None], on_any_day[:, None]) * self._ways[:, None, None]
+        to = _shrunk(any_day.sum(axis=2), watched[:, :, None] - there, to_each) * self._known
+        on_any_day = _shrunk(any_day, there[..., None], to[:, :, None, :], FROM_DAYS)
+        rate = _shrunk(taken, spent[..., None], on_any_day[:, None]) * self._ways[:, None, None]
         # from and to a place where it was never seen
         rate[..., -1, :] = to[:, None]
         new = NEW_PLACE / (left.sum(axis=1) + NEW_PLACE)
-        to_new = _drawn(left, watched, usual).mean(axis=1) * new
+        to_new = _shrunk(left, watched, usual).mean(axis=1) * new
         rate[..., :-1, -1] = to_new[:, None, None, None]
-        return _Found(of_all, of_class, rate.reshape(moves.taken.shape))
+        return _Estimate(of_all, of_class, rate.reshape(moves.taken.shape))
 
 
-def _drawn(moved: Floats, passed: Floats, to: Floats | float, days: float = DRAWN_DAYS) -> Floats:
+def _shrunk(moved: Floats, passed: Floats, to: Floats | float, days: float = DRAWN_DAYS) -> Floats:
     """Moves per hour, shrunk towards the rate `to`, which weighs as much as so many days."""
     rate: Floats = (moved + days * to) / (passed + days)
     return rate

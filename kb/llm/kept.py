@@ -47,7 +47,7 @@ class Kept:
         self._written = 0
         self._failed = False
         if self._folder:
-            _drop_what_is_too_much(self._folder)
+            _evict(self._folder)
 
     def get(self, *asked: object) -> bytes | None:
         """The result of a request; None if it is not kept."""
@@ -78,7 +78,7 @@ class Kept:
             return
         self._written += 1
         if self._written % LOOKED_OVER_AFTER == 0:
-            _drop_what_is_too_much(self._folder)
+            _evict(self._folder)
 
     def numbers(self, count: int | None, *asked: object) -> NDArray[np.float64] | None:
         """The numbers of a result, `count` (None: any number) and all finite; else None."""
@@ -106,7 +106,7 @@ def _mark_as_used(path: Path) -> None:
             os.utime(path)
 
 
-def _drop_what_is_too_much(folder: Path) -> None:
+def _evict(folder: Path) -> None:
     """Delete the least recently used files above the limits; ignore errors."""
     with suppress(OSError):
         about = [(entry.stat(follow_symlinks=False), entry.path) for entry in os.scandir(folder)]

@@ -142,7 +142,7 @@ class Asking:
             except Refused as refused:
                 if got.chunks:
                     raise
-                if self._otherwise(refused, body):
+                if self._adapts(refused, body):
                     continue
                 if (pause := tries.pause_s(refused.status, refused.wait_s)) is None:
                     self._dialect = learned  # what was tried did not help
@@ -170,7 +170,7 @@ class Asking:
                 if not got.finish_reason and got.written is None:  # usage comes last
                     raise
 
-    def _otherwise(self, refused: Refused, body: dict[str, Any]) -> bool:
+    def _adapts(self, refused: Refused, body: dict[str, Any]) -> bool:
         """Adapt the request to a refusal, for all later ones, too; whether that was possible.
 
         Each time, one alternative less is left, so this terminates.
