@@ -49,7 +49,7 @@ def show(ontology: "Ontology", words: str) -> int:
 
 
 def check(ontology: "Ontology") -> int:
-    """Print every fault, and what is not used; only a fault is one."""
+    """Print every fault, and notes on what is not used; 1 if there are faults."""
     faults = list(ontology.faults())  # they say, too, why a file adds nothing
     missed = ontology.unmet_imports() if faults else ontology.warnings()
     notes = [*missed, *ontology.unused()]
@@ -90,7 +90,7 @@ def facts(file: Path, as_json: bool) -> int:
 
 
 def explain(file: Path, home: str, words: str) -> int:
-    """Print where things are now by what was learned, and habits; or of what the words name."""
+    """Print where things are likely to be now, and habits; with words, only about these things."""
     from kb.experience import MOST_LEARNED, Experience
     from kb.explaining import habits, lines
     from kb.ontology.ontology import Ontology
@@ -110,12 +110,12 @@ def explain(file: Path, home: str, words: str) -> int:
 
 
 def _now(known: Iterable["Fact"]) -> float:
-    """The time (UTC, s); of a home in which time goes faster, when the last fact was noted."""
+    """The time (UTC, s); that of the last fact if it is later, as after a faster simulation."""
     return max([time.time(), *(fact.time_s for fact in known)])
 
 
 def forget(file: Path, words: str) -> int:
-    """Remove the facts about what the words name, or all."""
+    """Remove the facts about the things that the words name; without words, all facts."""
     from kb.ontology.ontology import Ontology
 
     names = Ontology().objects_named(words) or (words,) if words else (None,)
@@ -133,7 +133,7 @@ def age(seconds: float) -> str:
 
 
 def _ontology(given: argparse.Namespace, files: Sequence[Path] = ()) -> "Ontology":
-    """What a mission with the same options would know."""
+    """The ontology that a mission with the same options would have."""
     from kb.ontology.ontology import Ontology
     from sim.home.home_file import load_home
 
@@ -161,7 +161,7 @@ def _memory(file: Path, *, learns: bool = True) -> "FactStore":
 
 @entry_point
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run one command; 0: well, 1: nothing found, or faults found, 2: bad input."""
+    """Run one command; return 0 (done), 1 (nothing found, or faults) or 2 (bad input)."""
     given = parser().parse_args(arguments)
     match given.command:
         case "show":
@@ -217,7 +217,7 @@ def parser() -> argparse.ArgumentParser:
 
 
 def _add_knowledge(command: argparse.ArgumentParser) -> None:
-    """What the ontology is made of."""
+    """Add the options for the content of the ontology."""
     own = "own OWL file: adds to ours, or replaces the one with the same ontology IRI"
     command.add_argument("--kb", action="append", default=[], type=Path, metavar="FILE", help=own)
     _add_home(command, "whose furniture")

@@ -1,9 +1,9 @@
-"""What people have likely done with things between two sightings, hour by hour.
+"""Estimates what people have done with things between two sightings, hour by hour.
 
-A thing is at one place or another, and is moved by chance; most of it nobody sees. What is known at
-both ends, and where the thing was not in between, says how likely it was where at every hour, and
-what was taken where (forward and backward through a hidden Markov model: Rabiner, "A tutorial on
-hidden Markov models", 1989). All intervals are worked out side by side.
+A hidden Markov model: the state is the place of a thing; at random times people move it, mostly
+unseen. Given where the thing was at both ends of an interval, and where it was absent in between,
+the forward-backward algorithm (Rabiner, "A tutorial on hidden Markov models", 1989) gives the
+probability of each place and of each move in every hour. All intervals are processed in parallel.
 """
 
 from collections import Counter, defaultdict
@@ -20,38 +20,38 @@ from kb.sightings import Interval
 
 HOURS = 24
 SLOTS = 2 * HOURS
-"""The hours of a day from Monday to Friday, and those of a day of the weekend."""
+"""The 24 hours of a weekday, then the 24 hours of a day of the weekend."""
 HOUR_S = 3600.0
 DAY_S = 86400.0
 LONGEST_S = 14 * DAY_S
-"""What was last seen earlier is as if it had been then."""
+"""A last sighting that is older counts as if it were this old."""
 MOST_PLACES = 12
-"""Of each thing so many places are told apart, those where it was most often."""
+"""Only this many places of each thing are distinguished, the most frequent ones."""
 HARDLY = 1e-9
-"""No sighting is ruled out."""
+"""Minimum probability, so that no sighting is impossible."""
 _THURSDAY, _SATURDAY = 3, 5
-"""1970-01-01 was the first; Monday is 0."""
+"""Weekdays (Monday is 0); 1970-01-01 was a Thursday."""
 
 
 def slots(hours: NDArray[np.intp]) -> NDArray[np.intp]:
-    """In which slot each hour is, counted from the beginning of 1970 (UTC)."""
+    """The slot of each hour, which is counted from the beginning of 1970 (UTC)."""
     weekend = (hours // HOURS + _THURSDAY) % 7 >= _SATURDAY
     return hours % HOURS + HOURS * weekend
 
 
 def goes(rate: Floats, hours: Floats) -> Floats:
-    """How likely a thing is taken away in so many hours, at this rate."""
+    """Probability that a thing is taken away within these hours, at this rate (per hour)."""
     return np.asarray(-np.expm1(-rate * hours))
 
 
 @dataclass(frozen=True, slots=True)
 class Moves:
-    """What was likely done with each thing.
+    """Expected moves and durations of each thing.
 
     Attributes:
-        taken: (things, SLOTS, n, n) how often each was taken from one place to another in each
-            slot; the last place stands for those where it was never seen.
-        spent: (things, SLOTS, n) how many hours it was there.
+        taken: (things, SLOTS, n, n) number of moves from one place to another in each slot; the
+            last place stands for all those where the thing was never seen.
+        spent: (things, SLOTS, n) hours at each place.
     """
 
     taken: Floats
@@ -59,24 +59,24 @@ class Moves:
 
     @classmethod
     def none(cls, things: int, places: int) -> Self:
-        """Nothing was seen."""
+        """No moves and no hours."""
         spent = np.zeros((things, SLOTS, places))
         return cls(np.zeros((*spent.shape, places)), spent)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Between:
-    """The steps of all intervals, those with most steps first: up to an hour each.
+    """The intervals, divided into steps of at most an hour; those with most steps come first.
 
     Attributes:
-        places: of each thing, the numbers of its places.
-        thing: (intervals,) which thing.
-        start: (intervals,) where it was; -1: at none of its places.
-        end: (intervals,) where it was found; -1 as well.
-        steps: (intervals,) how many steps.
-        hours: (intervals, steps) how long each is (h).
-        slot: (intervals, steps) at which hour of what day.
-        absent: (intervals, steps) the place where it was not seen at the end of the step, or -1.
+        places: for each thing, its places and their indices.
+        thing: (intervals,) index of the thing.
+        start: (intervals,) index of the first place; -1: none of its places.
+        end: (intervals,) index of the place where it was found; -1 as for `start`.
+        steps: (intervals,) number of steps.
+        hours: (intervals, steps) duration of each step (h).
+        slot: (intervals, steps) slot of each step.
+        absent: (intervals, steps) place where it was not seen at the end of the step; -1: none.
     """
 
     places: Mapping[str, Mapping[str, int]]
@@ -90,7 +90,7 @@ class Between:
 
     @classmethod
     def of(cls, intervals: Sequence[Interval]) -> Self:
-        """The steps of these, one at least."""
+        """Divide these intervals into steps; there must be at least one interval."""
         seen: dict[str, Counter[str]] = defaultdict(Counter)
         for one in intervals:
             seen[one.thing].update((one.place, one.at))
@@ -120,14 +120,14 @@ class Between:
 
     @property
     def size(self) -> int:
-        """How many places a thing has at most, with the unknown one."""
+        """Maximum number of places of a thing, including the unknown one."""
         return 1 + max(map(len, self.places.values()))
 
     def moves(self, rate: Floats) -> Moves:
-        """What was likely done, by these rates.
+        """Expected moves and durations, given these rates (the E step).
 
         Args:
-            rate: (things, SLOTS, n, n) moves an hour from each place to each other one.
+            rate: (things, SLOTS, n, n) moves per hour from each place to each other.
         """
         n = self.size
         leaving = rate.sum(axis=-1)
@@ -149,9 +149,9 @@ class Between:
         return Moves(taken, spent)
 
     def _forward(self, leaving: Floats, to: Floats) -> tuple[list[Floats], list[Floats]]:
-        """Of each step, where things likely were before it; and how well each place fits after it.
+        """For each step: probabilities of the places before it, and likelihoods after it.
 
-        What fits is scaled, so that all that follows from it are probabilities.
+        The likelihoods are scaled, so that the products with the probabilities sum to 1.
         """
         likely = np.zeros((len(self.thing), self.size))
         likely[np.arange(len(likely)), self.start] = 1.0
@@ -162,7 +162,7 @@ class Between:
             before.append(likely)
             where = to[self.thing[at], self.slot[at, step]]
             likely = likely * (1 - go) + np.einsum("as,ast->at", likely * go, where)
-            fits = self._fits(at, step)
+            fits = self._likelihoods(at, step)
             likely = likely * fits
             total = likely.sum(axis=1, keepdims=True)
             seen.append(fits / total)
@@ -170,13 +170,13 @@ class Between:
         return before, seen
 
     def _at(self, step: int, leaving: Floats) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
-        """The intervals that have this step, thing with slot as one number, and what leaves."""
+        """For a step: the intervals that have it, their index of thing and slot, and P(leaving)."""
         at = np.arange(int((self.steps > step).sum()))
         thing, slot = self.thing[at], self.slot[at, step]
         return at, thing * SLOTS + slot, goes(leaving[thing, slot], self.hours[at, step, None])
 
-    def _fits(self, at: NDArray[np.intp], step: int) -> Floats:
-        """(intervals, n) how well what was seen after a step fits to each place."""
+    def _likelihoods(self, at: NDArray[np.intp], step: int) -> Floats:
+        """(intervals, n) likelihood of what was seen after a step, given each place."""
         fits = np.ones((len(at), self.size))
         missed = np.flatnonzero(self.absent[at, step] >= 0)
         fits[missed, self.absent[missed, step]] = MISSED
@@ -189,9 +189,9 @@ class Between:
 def _steps(
     one: Interval, places: Mapping[str, int]
 ) -> tuple[Floats, NDArray[np.intp], NDArray[np.intp]]:
-    """How long each step is (h), its slot, and where the thing was not after it or -1.
+    """Durations of the steps (h), their slots, and where the thing was absent at the end, or -1.
 
-    A step ends with the hour, or where something was seen.
+    A step ends at the full hour, or when the thing was looked for.
     """
     since, until = max(one.since_s, one.until_s - LONGEST_S) / HOUR_S, one.until_s / HOUR_S
     missed = [(time_s / HOUR_S, places[place]) for time_s, place in one.absences if place in places]

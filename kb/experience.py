@@ -1,8 +1,8 @@
-"""What is learned of where things are: how long a sighting is worth, and where people take things.
+"""Learns from sightings how long they stay valid, and where people take things.
 
-Of each thing it is followed hour by hour, from when it was last known where it is, how likely it
-has stayed, and where it may have been taken since (a hidden Markov model). What was seen without
-the thing since then counts, whatever was looked for.
+From its last known place, a thing is followed hour by hour with a hidden Markov model: the
+probability that it has stayed, and of each place where it may be now. Every later look at a place
+counts as evidence, whatever was looked for.
 """
 
 import math
@@ -19,27 +19,27 @@ from kb.rates import Rates, learned
 from kb.sightings import Known, Sightings
 
 MOST_LEARNED = 5_000
-"""So many of the last facts are learned from: a second, some eleven weeks of ten commands a day."""
+"""Only so many of the latest facts are used (about 11 weeks of 10 commands a day); takes 1 s."""
 MOST_TRUSTED = 0.98
-"""No source is believed more than this: something else may always be."""
+"""Maximum trust in a source: the thing may always be elsewhere."""
 SAID_TRUST = 0.95
-"""That a thing is where the person said."""
+"""Probability that a thing is where the person said."""
 AFRESH = 0.05
-"""It is learned anew when there are so many more facts than the last time, as a share."""
+"""The rates are estimated again after this relative increase in the number of facts."""
 
 
 class Experience:
-    """Implements `Experience` of the protocols over a file of facts."""
+    """Implements `Experience` of the protocols, from a file of facts."""
 
     def __init__(
         self, facts: FactStore, classes: Callable[[str], str], now: Callable[[], float]
     ) -> None:
-        """Know nothing yet.
+        """Start without any facts.
 
         Args:
-            facts: what is learned from.
-            classes: tells the class of a thing; empty if it has none.
-            now: the time (UTC, s).
+            facts: the facts to learn from.
+            classes: returns the class of a thing; empty if it has none.
+            now: returns the time (UTC, s).
         """
         self._facts = facts
         self._classes = classes
@@ -50,7 +50,7 @@ class Experience:
         self._rates = learned((), classes)
 
     def learn(self) -> None:
-        """Take in what was seen since, and learn from all of it if that is much."""
+        """Add the new facts; if there are enough of them, estimate the rates again from all."""
         self._catch_up()
         if self._count <= self._learned_of * (1 + AFRESH):
             return
@@ -58,7 +58,7 @@ class Experience:
         self._learned_of = self._count
 
     def recalled(self, name: str) -> tuple[Statement, ...]:
-        """What memory and habits say of where a thing is now; nothing if it was never seen."""
+        """What memory and habits say about where a thing is now; empty if it was never seen."""
         self._catch_up()
         followed = self._followed(name)
         if followed is None:
@@ -74,19 +74,19 @@ class Experience:
             said.append(Statement(Source.HABITS, tuple(moved.items()), trust))
         return tuple(one for one in said if one.trust > 0)
 
-    # --- to explain it ---
+    # --- for explanations ---
 
     def things(self) -> tuple[str, ...]:
-        """All of which something is known."""
+        """All things that were ever seen."""
         self._catch_up()
         return tuple(sorted(self._seen.known))
 
     def belief(self, name: str) -> Belief:
-        """Where it may be now, by what was seen alone."""
+        """Where the thing may be now, from sightings alone."""
         return believe(self.recalled(name), ())
 
     def rates(self) -> Rates:
-        """How often things are moved."""
+        """The estimated rates of moves."""
         return self._rates
 
     # --- following a thing ---
@@ -97,9 +97,9 @@ class Experience:
         self._seen.add(new)
 
     def _followed(self, name: str) -> tuple[str, float, dict[str, float]] | None:
-        """Where it was, how likely it has stayed there, and was taken to each place since.
+        """Its last place, P(it has stayed there), and for each place P(it was taken there since).
 
-        What is missing to 1 is the chance of a place where it was never seen.
+        The rest to 1 is the probability of places where it was never seen.
         """
         known = self._seen.known.get(name)
         if not known:
@@ -123,12 +123,12 @@ class Experience:
 
 
 def _share(last: Known) -> float:
-    """How likely it was where it was last known to be, right then."""
+    """Probability that the thing was at its last known place at that time."""
     return 0.0 if last.taken else SAID_TRUST if last.said else 1.0
 
 
 def _said_before(known: Sequence[Known]) -> dict[str, float]:
-    """Other places that the person named in the same breath: how likely, beside 1 of the first."""
+    """Other places that the person named at the same time, with weights relative to the first."""
     others: dict[str, float] = {}
     last = known[-1]
     for one in reversed(known[:-1]):
@@ -139,21 +139,21 @@ def _said_before(known: Sequence[Known]) -> dict[str, float]:
 
 
 class _Chain:
-    """How likely a thing is at each place, from hour to hour; the first is where it was last."""
+    """Probability of each place of one thing, over time; index 0 is the last known place."""
 
     def __init__(self, places: Sequence[str], rate: Floats) -> None:
-        """It moves at these rates between these places; the last of the rates is any other one."""
+        """`rate` is (SLOTS, n + 1, n + 1), moves per hour; the last index is any other place."""
         self._places = list(places)
         self._number = {place: number for number, place in enumerate(places)}
         self._away = rate.sum(axis=-1)
         self._to = rate / np.maximum(self._away, HARDLY)[..., None]
         self.stayed = 0.0
-        """How likely it is where it was, and was never taken away."""
+        """Probability that the thing is at its last place and was never taken away."""
         self._moved = np.zeros(len(places) + 1)
         self.at_s = 0.0
 
     def begin(self, share: float, others: Mapping[str, float]) -> None:
-        """It is at the first place with this probability, and nobody knows otherwise."""
+        """Start at the first place with this probability, or at one of the others by weight."""
         total = 1 + sum(others.values())
         for place, weight in others.items():
             self._moved[self._number[place]] += share * weight / total
@@ -161,7 +161,7 @@ class _Chain:
         self._moved[-1] += 1 - share
 
     def pass_until(self, time_s: float) -> None:
-        """Let people take it elsewhere until a time."""
+        """Advance to this time (UTC, s), with moves at the given rates."""
         while self.at_s < time_s - 1e-6:
             hour = math.floor(self.at_s / HOUR_S + 1e-9)
             step_s = min((hour + 1) * HOUR_S, time_s) - self.at_s
@@ -176,7 +176,7 @@ class _Chain:
         self.stayed *= 1 - gone[0]
 
     def not_at(self, place: str) -> None:
-        """It was not seen there."""
+        """Update with the evidence that the thing was not seen at a place."""
         number = self._number.get(place)
         if number is None:
             return
@@ -187,6 +187,6 @@ class _Chain:
         self._moved, self.stayed = self._moved / total, self.stayed / total
 
     def moved(self) -> dict[str, float]:
-        """Where it may have been taken, and how likely."""
+        """For each place, the probability that the thing was taken there."""
         named = zip(self._places, self._moved[:-1].tolist(), strict=True)
         return {place: share for place, share in named if share > 0}

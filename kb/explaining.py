@@ -1,4 +1,4 @@
-"""What was learned of where things are, in lines for a person."""
+"""Text lines for a person about what was learned of where things are."""
 
 import math
 from collections.abc import Iterable, Iterator
@@ -9,11 +9,11 @@ from kb.experience import Experience
 
 WORTH_TELLING = 0.01
 BUSY = 2.0
-"""An hour is told in which so many times more is moved than in the mean hour."""
+"""An hour is reported if more than this multiple of the mean is moved in it."""
 
 
 def lines(experience: Experience, names: Iterable[str]) -> Iterator[str]:
-    """Where each thing is likely now, with who gave how much of it, and how fast that fades."""
+    """The likely places of each thing, with their sources and the half-life of a sighting."""
     for name in names:
         belief = experience.belief(name)
         likely = [one for one in belief.places if one.probability >= WORTH_TELLING]
@@ -24,7 +24,7 @@ def lines(experience: Experience, names: Iterable[str]) -> Iterator[str]:
 
 
 def habits(experience: Experience) -> Iterator[str]:
-    """How long a sighting is worth for each class of things, and when people move things."""
+    """For each class of things, how long a sighting is worth, and when people move things."""
     rates = experience.rates()
     for name in sorted(set(rates.of_class) - {""}):
         rate = rates.of_class[name]
@@ -33,12 +33,12 @@ def habits(experience: Experience) -> Iterator[str]:
 
 
 def worth(rate: Floats) -> str:
-    """After how long the chance is even that a thing was moved."""
+    """The half-life of a sighting."""
     hours = math.log(2) / float(rate.mean())
     return f"{hours / HOURS:.1f} days" if hours >= 2 * HOURS else f"{hours:.0f} hours"
 
 
 def at_hours(rate: Floats) -> str:
-    """The hours of the day (UTC) in which most is moved."""
+    """The hours of the day (UTC) in which most things are moved."""
     busy = [hour for hour in range(HOURS) if rate[hour] > BUSY * rate.mean()]
     return f"mostly at {', '.join(f'{hour}:00' for hour in busy)} UTC" if busy else "at any hour"

@@ -1,11 +1,11 @@
-"""How often people take things where, and at which hours: learned from what was seen.
+"""Estimates at which rates people move things, by hour: learned from sightings.
 
-A thing is taken to a place by chance, at a rate that depends on the thing, on where it is, on the
-hour, and on whether it is the weekend. Most of what happens nobody sees: between two sightings it
-may have been moved at any hour, and back. So the rates are estimated by expectation (`kb.between`)
-and maximisation (Dempster, Laird and Rubin, "Maximum likelihood from incomplete data via the EM
-algorithm", 1977). As long as little was seen, each is drawn to what it is in general: on any day,
-from anywhere, of things of the class, of all things.
+A move is a random event. Its rate depends on the thing, its place, the hour, and whether it is the
+weekend. Most moves are not seen: between two sightings, a thing may have been moved at any hour,
+even there and back. So the rates are estimated by expectation maximisation (the E step is
+`kb.between`; Dempster, Laird and Rubin, "Maximum likelihood from incomplete data via the EM
+algorithm", 1977). With little data, each rate is shrunk towards a more general one: of any day, of
+any place, of the class, of all things.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -18,37 +18,38 @@ from kb.between import HARDLY, HOURS, SLOTS, Between, Moves
 from kb.sightings import Interval
 
 UNSEEN_PER_DAY = 0.4
-"""How often a thing is moved a day, as long as nothing was seen of any (an estimate)."""
+"""Moves per day of a thing, before any was seen (an estimate)."""
 DRAWN_DAYS = 1.0
-"""So many days of watching weigh as much as what is known in general."""
+"""Weight of the more general rate, as days of observation."""
 FROM_DAYS = 4.0
-"""The same of where a thing is taken from one place, beside where it is taken from anywhere.
+"""The same for the rate from one place, which is shrunk towards the rate from any place.
 
-In simulated households of the seeds 1 to 4 one instead of four hardly mattered.
+In simulated households (seeds 1 to 4), 1 instead of 4 made hardly any difference.
 """
 NEW_PLACE = 0.3
-"""As if so often a thing had been taken to a place where it was never seen (an estimate)."""
+"""Pseudo-count of moves to places where the thing was never seen (an estimate)."""
 ROUNDS = 12
-"""Of the estimation. With these and MOST_AHEAD it comes as far as with twice as many without."""
+"""Iterations of the EM; with MOST_AHEAD they get as far as twice as many without it."""
 MOST_AHEAD = 3.0
-"""Each round goes on by its step once more, as steps are short where most is unseen, and by no
-more than this factor."""
+"""Over-relaxation: each iteration repeats its step, which is small where most moves are unseen,
+limited to this factor.
+"""
 KINDS_OF_DAY = SLOTS // HOURS
 DAYS_A_WEEK = (5, 2)
-"""Of each kind."""
+"""Days a week of each kind of day."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Rates:
-    """Moves an hour.
+    """Rates of moves (per hour).
 
     Attributes:
-        of_all: (24,) of things in general, by the hour of the day.
+        of_all: (24,) of things in general, by hour of the day.
         of_class: (24,) of each class of things.
-        places: the numbers of each thing's places.
-        to: (SLOTS, n, n) of each thing, from each place to each other; the last is one where it was
-            never seen.
-        classes: tells the class of a thing.
+        places: for each thing, its places and their indices.
+        to: (SLOTS, n, n) for each thing, from each place to each other; the last index is
+            any place where it was never seen.
+        classes: returns the class of a thing.
     """
 
     of_all: Floats
@@ -58,7 +59,7 @@ class Rates:
     classes: Callable[[str], str]
 
     def of(self, thing: str, place: str) -> Floats:
-        """(24,) how often a thing is taken away from a place, by the hour of the mean day."""
+        """(24,) rate at which a thing is taken away from a place, by hour; mean of the week."""
         if thing not in self.to:
             return self.of_class.get(self.classes(thing), self.of_all)
         away = self.to[thing][:, self.places[thing].get(place, -1)].sum(axis=-1)
@@ -67,7 +68,7 @@ class Rates:
         return mean
 
     def among(self, thing: str, places: Sequence[str]) -> Floats:
-        """(SLOTS, n + 1, n + 1) from each of these to each other; the last is any other place."""
+        """(SLOTS, n + 1, n + 1) rates between these places; the last index is any other place."""
         found = np.zeros((SLOTS, len(places) + 1, len(places) + 1))
         if thing not in self.to:
             found[:, :-1, -1] = np.tile(self.of(thing, ""), KINDS_OF_DAY)[:, None]
@@ -81,7 +82,7 @@ class Rates:
 
 
 def learned(intervals: Sequence[Interval], classes: Callable[[str], str]) -> Rates:
-    """The rates that explain best what was seen."""
+    """Estimate the rates that explain the intervals best."""
     if not intervals:
         return Rates(np.full(HOURS, UNSEEN_PER_DAY / HOURS), {}, {}, {}, classes)
     between = Between.of(intervals)
@@ -97,8 +98,8 @@ def learned(intervals: Sequence[Interval], classes: Callable[[str], str]) -> Rat
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Found:
-    """(24,) of all, (kinds, 24) of each class, (things, SLOTS, n, n) of each thing."""
+class _Estimate:
+    """Rates (24,) of all things, (kinds, 24) of classes, (things, SLOTS, n, n) of each thing."""
 
     of_all: Floats
     of_class: Floats
@@ -106,7 +107,7 @@ class _Found:
 
 
 class _General:
-    """What things have in common, to which the rates of each are drawn."""
+    """The structure that things share, and the rates they are shrunk towards."""
 
     def __init__(self, between: Between, classes: Callable[[str], str]) -> None:
         of_each = [classes(thing) for thing in between.places]
@@ -118,8 +119,8 @@ class _General:
         self._known = (np.arange(between.size) < count[:, None])[:, None]
         self._ways = self._known.swapaxes(1, 2) & self._known & ~np.eye(between.size, dtype=bool)
 
-    def rates(self, moves: Moves) -> _Found:
-        """Moves over hours, each drawn to what is more general."""
+    def rates(self, moves: Moves) -> _Estimate:
+        """The M step: moves / hours, each rate shrunk towards a more general one."""
         by_kind_of_day = len(moves.spent), KINDS_OF_DAY, HOURS
         taken = moves.taken.reshape(*by_kind_of_day, *self._ways.shape[1:])
         taken = taken * self._ways[:, None, None]
@@ -128,23 +129,23 @@ class _General:
         any_day, there = taken.sum(axis=1), spent.sum(axis=1)
         left, watched = any_day.sum(axis=(2, 3)), there.sum(axis=2)
         # to anywhere: of all things, of each class
-        of_all = _drawn(left.sum(axis=0), watched.sum(axis=0), UNSEEN_PER_DAY / HOURS)
-        of_class = _drawn(self._members @ left, self._members @ watched, of_all)
+        of_all = _shrunk(left.sum(axis=0), watched.sum(axis=0), UNSEEN_PER_DAY / HOURS)
+        of_class = _shrunk(self._members @ left, self._members @ watched, of_all)
         # of each thing: to each place from anywhere, from each place on any day, on such a day
         usual = of_class[self._kind]
         to_each = (usual / self._others[:, None])[:, :, None]
-        to = _drawn(any_day.sum(axis=2), watched[:, :, None] - there, to_each) * self._known
-        on_any_day = _drawn(any_day, there[..., None], to[:, :, None, :], FROM_DAYS)
-        rate = _drawn(taken, spent[..., None], on_any_day[:, None]) * self._ways[:, None, None]
+        to = _shrunk(any_day.sum(axis=2), watched[:, :, None] - there, to_each) * self._known
+        on_any_day = _shrunk(any_day, there[..., None], to[:, :, None, :], FROM_DAYS)
+        rate = _shrunk(taken, spent[..., None], on_any_day[:, None]) * self._ways[:, None, None]
         # from and to a place where it was never seen
         rate[..., -1, :] = to[:, None]
         new = NEW_PLACE / (left.sum(axis=1) + NEW_PLACE)
-        to_new = _drawn(left, watched, usual).mean(axis=1) * new
+        to_new = _shrunk(left, watched, usual).mean(axis=1) * new
         rate[..., :-1, -1] = to_new[:, None, None, None]
-        return _Found(of_all, of_class, rate.reshape(moves.taken.shape))
+        return _Estimate(of_all, of_class, rate.reshape(moves.taken.shape))
 
 
-def _drawn(moved: Floats, passed: Floats, to: Floats | float, days: float = DRAWN_DAYS) -> Floats:
-    """Moves an hour, drawn to a rate that weighs as much as so many days."""
+def _shrunk(moved: Floats, passed: Floats, to: Floats | float, days: float = DRAWN_DAYS) -> Floats:
+    """Moves per hour, shrunk towards the rate `to`, which weighs as much as so many days."""
     rate: Floats = (moved + days * to) / (passed + days)
     return rate

@@ -1,7 +1,7 @@
-"""What facts say of each thing one after the other: seen here, gone from there, unknown between.
+"""Turns facts into a history for each thing: seen here, absent there, unknown in between.
 
-A place that was looked at all over tells of every thing, whatever was looked for: what was not seen
-there is not there. So it is where something was looked for in vain, and often where it was found.
+A look at a whole place says something about every thing, whatever was looked for: what was not
+seen there is not there. Such looks come from searches, most of them unsuccessful.
 """
 
 from bisect import bisect_right
@@ -12,9 +12,9 @@ from dataclasses import dataclass, field
 from kb.facts import Fact, FactKind
 
 LOOK_S = 60.0
-"""Facts about one place within this time are of one look."""
+"""Facts about a place within this time (s) belong to one look."""
 _SEEN = {FactKind.SEEN, FactKind.PUT, FactKind.SAID, FactKind.TAKEN}
-"""What says that the thing is, or was until now, at the place."""
+"""Facts which say that the thing is, or was until now, at the place."""
 _OF_A_LOOK = {FactKind.SEEN, FactKind.MISSED, FactKind.LOOKED}
 
 
@@ -28,12 +28,12 @@ def _when(absence: tuple[float, str]) -> float:
 
 @dataclass(frozen=True, slots=True)
 class Known:
-    """The thing was at a place.
+    """A time at which the place of a thing was known.
 
     Attributes:
         time_s: when (UTC, s).
         place: where.
-        taken: whether the robot took it from there: nobody knows since.
+        taken: whether the robot took it away then; the place is unknown from then on.
         said: whether the person said so.
     """
 
@@ -45,15 +45,15 @@ class Known:
 
 @dataclass(frozen=True, slots=True)
 class Interval:
-    """From one time at which it was known where a thing is to the next one.
+    """The time between two moments at which the place of a thing was known.
 
     Attributes:
         thing: which.
-        since_s: when it was at `place` for sure.
-        until_s: when it was seen again.
-        place: where it was.
-        at: where it was then.
-        absences: when and where it was not in between, in order.
+        since_s: the start (UTC, s).
+        until_s: the end (UTC, s).
+        place: the place at the start.
+        at: the place at the end.
+        absences: times and places at which it was not seen in between, in order.
     """
 
     thing: str
@@ -66,31 +66,31 @@ class Interval:
 
 @dataclass
 class _Look:
-    """A look at a place that may go on: facts that come soon after belong to it."""
+    """A look at a place; later facts may still be added to it."""
 
     since_s: float
     seen: set[str] = field(default_factory=set)
     missed: set[str] = field(default_factory=set)
     whole: bool = False
-    """Whether all of the place was looked at."""
+    """Whether the whole place was looked at."""
 
 
 @dataclass
 class Sightings:
-    """All of it, in the order of the facts."""
+    """The history of all things, in the order of the facts."""
 
     known: dict[str, list[Known]] = field(default_factory=lambda: defaultdict(list))
-    """Of each thing, when it was known where it is."""
+    """For each thing, when its place was known."""
     looks: dict[str, list[tuple[float, frozenset[str]]]] = field(
         default_factory=lambda: defaultdict(list)
     )
-    """Of each place, when it was looked at all over, and what was there."""
+    """For each place, when the whole of it was looked at, and what was there."""
     denied: dict[str, list[tuple[float, str]]] = field(default_factory=lambda: defaultdict(list))
-    """Of each thing, when the person said of which place that it is not there."""
+    """For each thing, when the person said that it is not at a place, and which place."""
     _open: dict[str, _Look] = field(default_factory=dict)
 
     def add(self, facts: Iterable[Fact]) -> None:
-        """Take in the facts, the oldest first."""
+        """Add facts, oldest first."""
         for fact in facts:
             self._look(fact)
             if fact.kind == FactKind.DENIED:
@@ -117,7 +117,7 @@ class Sightings:
             looks.append((look.since_s, frozenset(look.seen - look.missed)))
 
     def intervals(self) -> Iterator[Interval]:
-        """What can be learned from: the times between two sightings of a thing."""
+        """The intervals to learn from, each between two sightings of a thing."""
         for thing, known in self.known.items():
             absences = self.absences(thing, known[0].time_s)
             for one, after in zip(known, known[1:], strict=False):
@@ -129,7 +129,7 @@ class Sightings:
                 yield Interval(thing, one.time_s, after.time_s, one.place, after.place, between)
 
     def absences(self, thing: str, since_s: float) -> list[tuple[float, str]]:
-        """When and where a thing was not, after a time; in order."""
+        """When and where a thing was not seen after a time, in order."""
         found = [
             (time_s, place)
             for place, looks in self.looks.items()

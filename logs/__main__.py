@@ -27,7 +27,7 @@ T = TypeVar("T")
 
 
 class Answer(NamedTuple):
-    """To a question: as data, as printable text, and as exit status (1: not all, or not alike)."""
+    """Answer to a question: data, printable text, and exit status (1: incomplete, or different)."""
 
     data: Any
     text: str
@@ -47,7 +47,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _chosen(named: Sequence[Path]) -> Path:
-    """The one run that is asked about; if others could be meant, too, it is said which it is."""
+    """The run to ask about; if there were several candidates, print which one was chosen."""
     from logs.recording.choice import newest
 
     chosen = newest(named)
@@ -128,7 +128,7 @@ def _summary(options: argparse.Namespace) -> Answer:
 
 
 def _each(folders: Sequence[Path], ask: Callable[[Path], T]) -> "Iterator[T | Row]":
-    """An answer a run; of several, what cannot be read has a row that says so."""
+    """One answer for each run; among several, an unreadable one gives a row with the error."""
     from logs.recording.choice import runs_in
     from logs.recording.reader import FILE_NAME
 
@@ -174,7 +174,7 @@ def _timeline(options: argparse.Namespace) -> Answer:
 
 
 def _write(file: Path, data: bytes, run: Path) -> None:
-    """Write a file, but never over the recording that it is about."""
+    """Write a file; refuse to overwrite the recording itself."""
     from logs.recording.recovery import written
 
     if file.exists() and any(file.samefile(of) for of in (run, *run.glob("mission.*"))):
@@ -214,7 +214,7 @@ def _frames(options: argparse.Namespace) -> Answer:
 
 
 class _Frames:
-    """The pictures of a run, as often as they are asked for."""
+    """The pictures of a run; can be iterated more than once."""
 
     def __init__(self, run: "Run") -> None:
         self._run = run

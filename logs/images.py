@@ -13,12 +13,12 @@ JPEG_QUALITY = 90
 
 @lru_cache(maxsize=1)
 def jpeg(frame: Frame) -> bytes:
-    """Encode a frame's colours; the latest one is kept, so that all sinks share one encoding."""
+    """Encode a frame's colours; caches the latest one, so that all sinks share one encoding."""
     return _encoded(frame.color)
 
 
 def jpeg_scaled(frame: Frame, factor: float) -> bytes:
-    """Encode a frame's colours with so many times as many pixels in a row."""
+    """Encode a frame's colours, scaled to `factor` times as many pixels in each direction."""
     if factor == 1.0:
         return jpeg(frame)
     scaled = cv2.resize(frame.color, None, fx=factor, fy=factor)

@@ -1,4 +1,4 @@
-"""A record that does not fit costs that record, and is told once for each kind."""
+"""A record that cannot be written is skipped; this is reported once for each kind of record."""
 
 import logging
 
@@ -9,15 +9,15 @@ log = logging.getLogger(__name__)
 
 
 class Unwritten:
-    """What one sink could not write down."""
+    """Records that one sink could not write."""
 
     def __init__(self, sink: str) -> None:
-        """Tell of the sink of this name."""
+        """`sink` is the name to report."""
         self._sink = sink
         self._told: set[str] = set()
 
     def note(self, kind: str, error: Exception) -> Note | None:
-        """What to write in place of a record of this kind; None if the kind was told before."""
+        """The note to write instead of this record; None if this kind was reported before."""
         if kind in self._told:
             return None
         self._told.add(kind)

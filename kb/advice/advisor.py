@@ -1,4 +1,4 @@
-"""Who puts questions to the language model, in all three ways: what a mission takes along."""
+"""The language model's three tasks: to list places, to rank them, to read commands."""
 
 from executive.interfaces.knowledge import Facts
 from executive.interfaces.llm import Advice, LanguageModel
@@ -18,7 +18,7 @@ def advise(
     prompts: Prompts | None = None,
     facts: Facts | None = None,
 ) -> Advice:
-    """The three over the same ontology and the same texts; see each for what is given."""
+    """Build all three from the same ontology and prompts; the arguments are described there."""
     prompts = prompts or Prompts.load()
     return Advice(
         Lister(ontology, model, remembers=remembers, top=top, prompts=prompts),

@@ -1,8 +1,8 @@
-"""Having the language model read what the grammar of commands cannot.
+"""Lets the language model read commands that the grammar cannot.
 
-It may only choose: of the deeds, the things and the places that exist. What comes of it is said
-again as a plain sentence, which the grammar reads, so that it has the same meaning as if the person
-had said it so; and it is put to them before anything is done.
+The model can only choose from existing deeds, things and places. The result is turned into a plain
+sentence, which the grammar parses, so that it means the same as if the person had said it. The
+person has to confirm it before anything is done.
 """
 
 from collections.abc import Sequence
@@ -19,10 +19,10 @@ from kb.advice.verification import last_first
 
 MOST_TASKS = 5
 ALL = "all"
-"""As a number of things."""
+"""As a number: all things."""
 MOST_THINGS = 9
 ME = "me"
-"""As a place to bring something, or to come to."""
+"""As a goal: the person."""
 
 
 class Asked(BaseModel):
@@ -55,7 +55,7 @@ class Asked(BaseModel):
 
     @property
     def sentence(self) -> str:
-        """The same as one says it to the robot."""
+        """The task as a person would say it to the robot."""
         thing = self._thing
         source = f" from the {spoken(self.source)}" if self.source else ""
         goal = f" to the {spoken(self.goal)}" if self.goal not in ("", ME) else ""
@@ -82,7 +82,7 @@ class Asked(BaseModel):
 
     @property
     def makes_sense(self) -> bool:
-        """Whether it has what its deed needs, and nothing that this has no use for."""
+        """Whether the task has everything its deed needs, and nothing that the deed cannot use."""
         means = self.kind.means
         if self.kind == CommandKind.GO:
             return bool(self.goal) and not (self.object or self.source)
@@ -96,11 +96,11 @@ class Asked(BaseModel):
 
 
 DEEDS = (*SEARCHING, CommandKind.PUT, CommandKind.PUT_BACK, CommandKind.PUT_DOWN, CommandKind.GO)
-"""What a model may read into words."""
+"""The deeds that a model may choose."""
 
 
 def schema(objects: Sequence[str], places: Sequence[str]) -> dict[str, Any]:
-    """JSON schema of a reply that can name only these objects and places; "" is none."""
+    """JSON schema of a reply that can name only these objects and places; "" means none."""
 
     def one_of(names: Sequence[str]) -> dict[str, Any]:
         return {"type": "string", "enum": list(names)}
@@ -127,9 +127,9 @@ def schema(objects: Sequence[str], places: Sequence[str]) -> dict[str, Any]:
 
 
 def read(reply: str) -> tuple[Asked, ...]:
-    """The tasks that the reply says last; none if nothing in it has the format. Never raises.
+    """The tasks in the last valid JSON value of the reply; empty if there is none. Never raises.
 
-    A task alone, as models were asked for once, is one of one.
+    A single task without a list, an earlier format, is accepted, too.
     """
     for value in last_first(reply):
         listed = value.get("tasks") if isinstance(value, dict) and "tasks" in value else [value]
@@ -145,7 +145,7 @@ def read(reply: str) -> tuple[Asked, ...]:
 
 
 def rank_request(words: str, texts: Understanding) -> RankRequest:
-    """Ask how likely each kind of command is."""
+    """A request for the score of each kind of command."""
     return RankRequest(
         label="command",
         messages=texts.chat(words),
@@ -158,7 +158,7 @@ def rank_request(words: str, texts: Understanding) -> RankRequest:
 def chat_request(
     words: str, objects: Sequence[str], places: Sequence[str], texts: Understanding
 ) -> ChatRequest:
-    """Ask what to do with what, and where, as JSON."""
+    """A request for the tasks as JSON."""
     held = schema(objects, places)
     return ChatRequest("command", texts.inquiry(words, objects, places, held), held)
 

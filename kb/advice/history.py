@@ -1,4 +1,4 @@
-"""The dialogue with the language model so far, as much of it as its context window has room for."""
+"""The dialogue with the language model, limited to what fits into its context window."""
 
 from collections import deque
 from collections.abc import Callable
@@ -10,17 +10,17 @@ _SHARE_OF_DIALOGUE = 0.8
 
 
 def history_budget(context_tokens: int, system_tokens: int) -> int:
-    """Tokens that the history may take: (context / 2 - system prompt) * 0.8.
+    """Token budget of the history: (context / 2 - system prompt) * 0.8.
 
-    The paper's section "Memory": the other half of the window is left to the reply, and a fifth of
-    the rest to the inquiry.
+    From the paper's section "Memory": half of the window is reserved for the reply, and a fifth of
+    the rest for the inquiry.
     """
     free = context_tokens * _SHARE_OF_CONTEXT - system_tokens
     return max(0, int(free * _SHARE_OF_DIALOGUE))
 
 
 class DialogueHistory:
-    """Exchanges, oldest first; the oldest are forgotten, each as a whole, to keep to the budget."""
+    """Exchanges, oldest first; the oldest are dropped as a whole to stay within the budget."""
 
     def __init__(self, budget: int, count: Callable[[str], int]) -> None:
         """Remember at most `budget` tokens, counted by `count`."""
@@ -29,7 +29,7 @@ class DialogueHistory:
         self._exchanges: deque[tuple[int, Message, Message]] = deque()
 
     def add(self, inquiry: str, reply: str) -> None:
-        """Keep an exchange, and forget what there is no more room for."""
+        """Add an exchange, and drop the oldest ones beyond the budget."""
         tokens = self._count(inquiry) + self._count(reply)
         self._exchanges.append((tokens, Message("user", inquiry), Message("assistant", reply)))
         while self.tokens > self._budget:
@@ -37,7 +37,7 @@ class DialogueHistory:
 
     @property
     def tokens(self) -> int:
-        """How many tokens the history takes."""
+        """Number of tokens of the history."""
         return sum(tokens for tokens, _, _ in self._exchanges)
 
     def messages(self) -> tuple[Message, ...]:

@@ -1,4 +1,4 @@
-"""What is done where a home has more furniture than a language model can be told of at once."""
+"""Handles homes with too much furniture for one prompt of a language model."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -8,28 +8,28 @@ from executive.types.home import Place
 from executive.types.results import Scored
 
 BYTES_PER_TOKEN = 3
-"""A careful estimate; counting would wait for the model to be loaded."""
+"""A cautious estimate; to count exactly, the model would have to be loaded."""
 SHARE_FOR_THE_HOME = 0.5
-"""Of the context window: the other half is left to the reply (paper, section "Memory")."""
+"""Share of the context window; the other half is for the reply (paper, section "Memory")."""
 SHARE_FOR_A_LIST = 0.3
 MOST_OPTIONS = 200
-"""Places that are scored one by one; more would take minutes."""
+"""Places that are scored individually; more would take minutes."""
 
 
 def fits(text: str, context_tokens: int) -> bool:
-    """Whether a text leaves enough of a context window free."""
+    """Whether a text leaves enough space in the context window."""
     return len(text.encode()) / BYTES_PER_TOKEN <= context_tokens * SHARE_FOR_THE_HOME
 
 
 def as_many_as_fit(names: Sequence[str], context_tokens: int) -> list[str]:
-    """The first of the names, as many as a question has room for."""
+    """The first names, as many as fit into a question."""
     room = int(context_tokens * BYTES_PER_TOKEN * SHARE_FOR_A_LIST)
     lengths = accumulate(len(name.encode()) + len(", ") for name in names)
     return [name for name, length in zip(names, lengths, strict=True) if length <= room]
 
 
 def of_all_kinds(places: Sequence[Place]) -> list[str]:
-    """The names, one of each kind first, then a second one, ..."""
+    """The names, first one of each kind, then a second one of each, and so on."""
     kinds: dict[str, list[str]] = {}
     for place in places:
         kinds.setdefault(place.kind, []).append(place.name)
@@ -39,12 +39,12 @@ def of_all_kinds(places: Sequence[Place]) -> list[str]:
 
 @dataclass(frozen=True, slots=True)
 class Alike:
-    """Places that the model could tell apart by their number only; the first stands for all.
+    """Groups of places that differ only by their number; the first place represents its group.
 
     Attributes:
-        groups: the first of each group -> all of it.
-        few: whether each place stands for itself, in a home that is not large.
-        firsts: each place -> the first of its group.
+        groups: the first place of each group, and all places of the group.
+        few: whether each place is its own group, because the home is not large.
+        firsts: each place, and the first place of its group.
     """
 
     groups: dict[str, tuple[Place, ...]]
@@ -53,7 +53,7 @@ class Alike:
 
     @classmethod
     def among(cls, places: Sequence[Place]) -> "Alike":
-        """Groups of places of one kind in one kind of room."""
+        """Group places of the same kind in the same kind of room."""
         if len(places) <= MOST_OPTIONS:
             return cls._of([(place,) for place in places], few=True)
         found: dict[tuple[str, str], list[Place]] = {}
@@ -67,18 +67,18 @@ class Alike:
         return cls({group[0].name: group for group in groups}, few, firsts)
 
     def spoken_of(self) -> list[Place]:
-        """For each group the place that is asked about, without what tells it from the others."""
+        """The place to ask about for each group, without what distinguishes it inside."""
         firsts = [group[0] for group in self.groups.values()]
         if self.few:
             return firsts
         return [Place(p.kind, p.kind, p.room_kind, p.room_kind) for p in firsts]
 
     def stands_for(self, name: str) -> str:
-        """The first of the group that a place is in; itself if it is in none."""
+        """The first place of the group of a place; the place itself if it has no group."""
         return self.firsts.get(name, name)
 
     def apart(self, scored: Scored) -> Scored:
-        """The same with all places of each group, which are as likely as the first."""
+        """The scores for all places; each place has the score of its group."""
         pairs = zip(scored.request.places, scored.scores, strict=True)
         all_of = [(p.name, score) for first, score in pairs for p in self.groups[first]]
         request = replace(scored.request, places=tuple(name for name, _ in all_of))

@@ -1,9 +1,9 @@
-r"""JSON as language models write it, read in one pass.
+r"""Parses JSON as language models write it, in one pass.
 
-Beside JSON itself: text around it, code fences, trailing commas, comments, single and typographic
-quotes, names without quotes, tuples, and escapes that JSON does not know (`counter\_wagon`).
-Nothing is completed or corrected: a value has to have its closing bracket, and no word is returned
-that is not there.
+In addition to JSON: text around it, code fences, trailing commas, comments, single and typographic
+quotes, names without quotes, tuples, and escapes that JSON does not have (`counter\_wagon`).
+Nothing is completed or corrected: every value needs its closing bracket, and no word is returned
+that is not in the text.
 """
 
 import re
@@ -11,19 +11,19 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 DEEPEST = 16
-"""Brackets in brackets; what lies deeper is no answer."""
+"""Maximum nesting; anything deeper is no answer."""
 
 _WIDE = {wide: chr(ord(wide) - 0xFEE0) for wide in "｛｝［］（）：，"}
-"""Marks as they are written among Chinese and Japanese letters."""
+"""Full-width marks, as in Chinese and Japanese text."""
 _CLOSES = {"{": "}", "[": "]", "(": ")"}
-"""Round ones, as Python has them, count within others only: text is full of them."""
+"""Round brackets (Python tuples) count only inside others, because they are common in prose."""
 _OPENING = re.compile(r"[{\[｛［]")
 _SPACE = re.compile(r"(?:\s+|//[^\n]*|#[^\n]*|/\*[^*]*+\*/|\.{3}|…)+")
 _QUOTES = {
     quote[0]: quote[1:]
     for quote in ('""', "''", "``", "“”", "‘’", "«»", "‹›", "„“”", "「」", "＂＂")
 }
-"""What begins a string, and what may end it."""
+"""Opening quotes, and the quotes that may close them."""
 _STRING = re.compile(
     "|".join(
         rf"{begins}([^{ends}\\\n]*+(?:\\.[^{ends}\\\n]*+)*+)[{ends}]"
@@ -44,7 +44,7 @@ class Bare(str):
 
 @dataclass(slots=True)
 class _Open:
-    """A bracket that is not closed yet. `wants` is what has to come next, beside its close."""
+    """An open bracket. `wants` is the token that must come next, unless the bracket closes."""
 
     closes_with: str
     wants: str
@@ -52,7 +52,7 @@ class _Open:
     key: str = field(default="")
 
     def take(self, value: object) -> bool:
-        """Take in a value, or a key; False if neither belongs here."""
+        """Take a value or a key; False if it is not allowed here."""
         if self.wants == "key" and isinstance(value, str):
             self.key, self.wants = value, ":"
             return True
@@ -66,22 +66,22 @@ class _Open:
         return True
 
     def passes(self, mark: str) -> bool:
-        """Go on after a comma or a colon; False if it does not belong here."""
+        """Take a comma or a colon; False if it is not allowed here."""
         if mark != self.wants:
             return False
         self.wants = "key" if mark == "," and isinstance(self.value, dict) else "value"
         return True
 
     def closes(self, mark: str) -> bool:
-        """Whether this bracket ends it here; a comma before it does no harm."""
+        """Whether this bracket may close here; a trailing comma is allowed."""
         unfinished = self.wants == ":" or (self.wants == "value" and self.closes_with == "}")
         return mark == self.closes_with and not unfinished
 
 
 def values(text: str) -> Iterator[tuple[int, object]]:
-    """Every object and list in a text with where it ends, inner ones before outer ones.
+    """Every object and list in a text, with its end position, inner ones before outer ones.
 
-    Never raises; takes time in proportion to the text.
+    Never raises; takes linear time.
     """
     at, stack = 0, list[_Open]()
     unclosed: dict[str, int] = {}
@@ -108,7 +108,7 @@ def values(text: str) -> Iterator[tuple[int, object]]:
 
 
 def _step(text: str, at: int, stack: list[_Open], unclosed: dict[str, int]) -> int | None:
-    """Take in what is here and return where it ends; None, and an empty stack, if it is amiss."""
+    """Parse one token and return its end; on an error clear the stack and return None."""
     mark = _WIDE.get(text[at], text[at])
     if mark in _CLOSES and len(stack) < DEEPEST and (not stack or stack[-1].wants == "value"):
         stack.append(_Open("}", "key", {}) if mark == "{" else _Open(_CLOSES[mark], "value", []))
@@ -126,10 +126,10 @@ def _step(text: str, at: int, stack: list[_Open], unclosed: dict[str, int]) -> i
 
 
 def _scalar(text: str, at: int, unclosed: dict[str, int]) -> tuple[object, int] | None:
-    """A string, word or number that begins here, and its end.
+    """The string, word or number at this position, and its end; None if there is none.
 
-    `unclosed` is for quotes that nothing closes in their line: where such a line ends. They are not
-    looked at again.
+    `unclosed` maps an opening quote without a closing one to the end of its line: up to there it
+    is not searched again.
     """
     found = _STRING.match(text, at) if at >= unclosed.get(text[at], 0) else None
     if not found and text[at] in _QUOTES:
@@ -145,7 +145,7 @@ def _scalar(text: str, at: int, unclosed: dict[str, int]) -> tuple[object, int] 
 
 
 def _escaped(found: re.Match[str]) -> str:
-    """What an escape stands for; one that JSON does not know stands for its character."""
+    """The character of an escape; an escape unknown to JSON means the character itself."""
     if code := found[1]:
         return chr(int(code, 16))
     return _SHORT.get(found[2], found[2])

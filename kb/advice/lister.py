@@ -1,7 +1,7 @@
-"""The language model as one who lists places: prompts, memory, parser and verification in one.
+"""Lets the language model list places: prompts, memory, parser and verification.
 
-The paper's section "Proposed System", less the model itself and less the order of the steps, which
-is a subtree.
+The paper's section "Proposed System", without the model itself, and without the order of the
+steps, which is a subtree.
 """
 
 from collections.abc import Sequence
@@ -18,7 +18,7 @@ from kb.ontology.names import unique
 from kb.ontology.ontology import Ontology
 
 SITUATION = "likely places"
-"""What a summary is about."""
+"""The topic of a summary."""
 
 
 class Lister:
@@ -33,14 +33,14 @@ class Lister:
         top: int = 5,
         prompts: Prompts | None = None,
     ) -> None:
-        """Ask about what the ontology knows; the model only counts tokens here.
+        """The ontology limits what is asked about; the model only counts tokens here.
 
         Args:
             ontology: what exists.
-            model: whose context window and tokenizer limit the memory.
-            remembers: whether prompts hold the dialogue so far (OKB+LLM+MEM) or not (OKB+LLM).
-            top: how many places to ask for, at most.
-            prompts: the texts; None: those of prompts.toml.
+            model: its context window and tokenizer limit the memory.
+            remembers: whether prompts contain the dialogue so far (OKB+LLM+MEM) or not (OKB+LLM).
+            top: maximum number of places to ask for.
+            prompts: the prompt texts; None: those in prompts.toml.
         """
         self._ontology = ontology
         self._model = model
@@ -55,7 +55,7 @@ class Lister:
         self._memory: DialogueHistory | None = None
 
     def inquiry(self, name: str, among: tuple[str, ...]) -> ChatRequest:
-        """`general_pos`, or `multiple_pos` when `among` is given."""
+        """Prompt `general_pos`; `multiple_pos` if `among` is given."""
         if among:
             text = self._prompts.inquiry(
                 "multiple_pos", object_name=name, position=", ".join(among)
@@ -65,7 +65,7 @@ class Lister:
         return self._request("general_pos", text, self._choices())
 
     def furniture(self, name: str, room: str, among: tuple[str, ...]) -> ChatRequest:
-        """`furniture`: which furniture of this room?"""
+        """Prompt `furniture`: which furniture in this room?"""
         allowed = verification.allowed(self._ontology.places(), among)
         choice = self._fitting([p for p in allowed if p.room == room])
         text = self._prompts.inquiry(
@@ -74,13 +74,13 @@ class Lister:
         return self._request("furniture", text, choice)
 
     def again(self, name: str, among: tuple[str, ...]) -> ChatRequest:
-        """`again`: the reply named no real place; choose from the list."""
+        """Prompt `again`: the reply named no existing place; choose from the list."""
         choice = self._choices(among)
         text = self._prompts.inquiry("again", object_name=name, furniture_list=", ".join(choice))
         return self._request("again", text, choice)
 
     def summarize(self, name: str, reply: str) -> ChatRequest:
-        """`summarize`: the reply, which is shown once more if no memory holds it."""
+        """Prompt `summarize`, with the reply if it is not in the memory."""
         text = self._prompts.inquiry("summarize", object_name=name, situation=SITUATION)
         if self._history()[-1:] == (Message("assistant", reply),):
             return self._request("summarize", text, self._choices())
@@ -89,7 +89,7 @@ class Lister:
         return self._request("summarize", text, self._choices(), exchange)
 
     def remember(self, request: ChatRequest, reply: str) -> None:
-        """Keep the exchange for the next prompts, if this system has a memory."""
+        """Add the exchange to the memory, if there is one."""
         if not self._remembers:
             return
         if self._memory is None:
@@ -99,22 +99,22 @@ class Lister:
         self._memory.add(request.messages[-1].content, reply)
 
     def read(self, reply: str) -> tuple[str, ...] | None:
-        """The names in a reply, or None if it is not in the output format."""
+        """The names in a reply; None if it is not in the output format."""
         return verification.read(reply)
 
     def verify(self, names: tuple[str, ...], among: tuple[str, ...]) -> Verdict:
-        """Hold names against the ontology (the existence check)."""
+        """Check which names exist in the ontology (the existence check)."""
         return verification.verify(names, self._ontology.place_names, among)
 
     def _choices(self, among: tuple[str, ...] = ()) -> list[str]:
-        """What the model may name; rooms, if the home is too large for its furniture."""
+        """The names to choose from; rooms, if the home is too large to list its furniture."""
         allowed = verification.allowed(self._ontology.places(), among)
         if not self._by_rooms or among:
             return self._fitting(allowed)
         return as_many_as_fit(unique(p.room for p in allowed), self._model.context_tokens)
 
     def _fitting(self, places: Sequence[Place]) -> list[str]:
-        """The names; of too many as many as fit, of all kinds."""
+        """The names; if there are too many, as many as fit, of all kinds."""
         names = [place.name for place in places]
         fitting = as_many_as_fit(names, self._model.context_tokens)
         if len(fitting) == len(names):

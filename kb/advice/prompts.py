@@ -1,4 +1,4 @@
-"""The texts for the language model: read from prompts.toml, filled in with what is known."""
+"""The prompt texts for the language model: read from prompts.toml, then filled in."""
 
 import json
 import re
@@ -30,7 +30,7 @@ PLACEHOLDERS: Mapping[str, Sequence[str]] = {
     "summarize": ("object name", "situation"),
     "question": ("thing", "words"),
 }
-"""Label of each text -> what it may speak of."""
+"""Label of each text, and the placeholders it may contain."""
 
 
 class _Part(BaseModel):
@@ -47,7 +47,7 @@ class _Part(BaseModel):
 
 
 class Ranking(_Part):
-    """The chat in which places are scored."""
+    """The chat for scoring places."""
 
     system: str
     question: str
@@ -66,7 +66,7 @@ class Ranking(_Part):
 
 
 class Understanding(_Part):
-    """The chats in which commands are read that the grammar of commands cannot read."""
+    """The chats for commands that the grammar cannot parse."""
 
     system: str
     question: str
@@ -97,7 +97,7 @@ class Understanding(_Part):
         places: Sequence[str],
         schema: dict[str, Any],
     ) -> tuple[Message, ...]:
-        """For writing: what there is and the output format, then the question."""
+        """For writing: the known names and the output format, then the question."""
         values = {
             "objects": ", ".join(objects),
             "places": ", ".join(places),
@@ -111,7 +111,7 @@ class Understanding(_Part):
 
 
 class Prompts(_Part):
-    """All texts, by the paper's labels."""
+    """All texts, by the labels in the paper."""
 
     system: str
     system_rooms: str
@@ -125,7 +125,7 @@ class Prompts(_Part):
 
     @classmethod
     def load(cls, path: Path | None = None) -> "Prompts":
-        """Our texts; those that a TOML file like prompts.toml has are taken from there.
+        """Our texts, with those in a TOML file like prompts.toml replaced.
 
         Raises:
             InputError: names the text and what is wrong with it.
@@ -147,12 +147,12 @@ class Prompts(_Part):
             raise InputError(f"{path}: {where}", in_words(fault["msg"]), known) from None
 
     def inquiry(self, label: str, **values: str) -> str:
-        """The text with this label; placeholders are given with underscores: `object_name`."""
+        """The text with this label, filled in; `object_name` is the value of `#object name`."""
         text: str = getattr(self, label)
         return _fill(text, {name.replace("_", " "): value for name, value in values.items()})
 
     def home(self, places: Sequence[Place]) -> str:
-        """The system prompt: what the model is told about the home and the output format."""
+        """The system prompt: the home and the output format."""
         return _fill(
             self.system,
             {
@@ -164,7 +164,7 @@ class Prompts(_Part):
         )
 
     def rooms(self, rooms: Sequence[str]) -> str:
-        """The system prompt for a home with more furniture than a prompt has room for."""
+        """The system prompt for a home with too much furniture for one prompt."""
         form = json.dumps(Reply.model_json_schema())
         return _fill(self.system_rooms, {"rooms": ", ".join(rooms), "format": form})
 
@@ -175,7 +175,7 @@ def _ours() -> Prompts:
 
 
 def _pattern(names: Iterable[str]) -> re.Pattern[str]:
-    """Matches `#name` for each of the names, the longest first."""
+    """A pattern for `#name` with each of the names, the longest first."""
     longest_first = sorted(names, key=len, reverse=True)
     return re.compile(rf"#({'|'.join(map(re.escape, longest_first))})\b")
 

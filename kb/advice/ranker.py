@@ -1,4 +1,4 @@
-"""The language model as one who ranks places: what it is asked to score, and what that comes to."""
+"""Lets the language model rank places: what it has to score, and the resulting order."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -23,12 +23,12 @@ class Ranker:
     def __init__(
         self, ontology: Ontology, *, prompts: Prompts | None = None, facts: Facts | None = None
     ) -> None:
-        """Have the places of the ontology scored.
+        """Rank the places of the ontology.
 
         Args:
             ontology: what exists.
-            prompts: the texts; None: those of prompts.toml.
-            facts: where things were seen; like default locations they are precedents for others.
+            prompts: the prompt texts; None: those in prompts.toml.
+            facts: where things were seen; used as precedents, as default locations are.
         """
         self._ontology = ontology
         self._texts = (prompts or Prompts.load()).ranking
@@ -36,7 +36,7 @@ class Ranker:
         self._scored_alike: dict[tuple[str, ...], Alike] = {}
 
     def ranking(self, name: str, among: tuple[str, ...]) -> RankRequest:
-        """Score every allowed place instead of asking for a list."""
+        """A request to score every allowed place, instead of asking for a list."""
         alike = Alike.among(allowed(self._ontology.places(), among))
         options = [
             (group[0], ranking.answer(place, self._ontology.preposition(place)))
@@ -58,7 +58,7 @@ class Ranker:
 
     @cached_property
     def _usual(self) -> dict[str, Known]:
-        """Every object with the places of this home that its default locations stand for."""
+        """Every object with the places of this home that match its default locations."""
         ontology = self._ontology
         return {
             name: Known(name, ontology.class_of(name), tuple(ontology.likely_places(name)))
@@ -66,7 +66,7 @@ class Ranker:
         }
 
     def _others(self, name: str) -> Iterator[Known]:
-        """All other objects: where they were seen last, else their default locations."""
+        """All other objects, with where they were last seen, else with their default locations."""
         for other in self._usual.values():
             if other.name != name:
                 seen = self._facts.places_of(other.name) if self._facts else ()

@@ -1,9 +1,9 @@
-"""Scoring the known places instead of asking for a list: a model cannot invent what it only scores.
+"""Scores the known places instead of asking for a list: so the model cannot invent places.
 
-What counts for a place is the model's log-likelihood of the answer that names it, less that of the
-same answer about nothing in particular, so that a place does not win for being a common phrase
-(Holtzman et al., "Surface Form Competition", EMNLP 2021); and where other things are known to be,
-as far as they are like this one (`precedents.py`).
+The score of a place has two parts. One is the model's log-likelihood of the answer that names it,
+minus that of the same answer to a neutral question, so that a place does not win because it is a
+common phrase (Holtzman et al., "Surface Form Competition", EMNLP 2021). The other is where similar
+things are known to be (`precedents.py`).
 """
 
 import math
@@ -26,7 +26,7 @@ MOST_PRECEDENTS = 300
 
 @dataclass(frozen=True, slots=True)
 class Known:
-    """A thing by its name, the class above it (empty: none), and the names of its places."""
+    """A thing: its name, its class (empty: none), and the names of its places."""
 
     name: str
     kind: str = ""
@@ -39,14 +39,14 @@ def rank_request(
     texts: Ranking,
     others: Iterable[Known] = (),
 ) -> RankRequest:
-    """Ask how likely each answer is for this thing.
+    """A request for the score of each answer about this thing.
 
     Args:
-        thing: what is asked for. With its class beside it ("hammer (a tool)") the embedded model
-            ranked worse, so that the class only serves to compare it with others.
-        options: places, and the answers that stand for them, as `answer` has them.
+        thing: what is asked about. Its class is only used to compare it with others: with the
+            class in the prompt ("hammer (a tool)"), the embedded model ranked worse.
+        options: the places, each with the answer that names it (see `answer`).
         texts: the question and its examples.
-        others: things whose places are known; those that are elsewhere do not count.
+        others: things with known places; those at none of the options are ignored.
     """
     places = {place.name for place, _ in options}
     here = (other for other in others if not places.isdisjoint(other.places))
@@ -66,7 +66,7 @@ def rank_request(
 
 
 def _told(kind: str) -> str:
-    """The class of a place; none, if it is only known to be one."""
+    """The class of a place; empty if it is only "Furniture"."""
     return "" if kind == ANY_PLACE else kind
 
 
@@ -76,7 +76,7 @@ def answer(place: Place, preposition: str) -> str:
 
 
 def ranked(scored: Scored) -> tuple[Candidate, ...]:
-    """Places by softmax of their scores, likeliest first; equals in the order of the request."""
+    """Places by the softmax of their scores, likeliest first; ties in the order of the request."""
     probabilities = softmax(scored.scores)
     candidates = [
         Candidate(place, Source.LLM, probability)
@@ -86,7 +86,7 @@ def ranked(scored: Scored) -> tuple[Candidate, ...]:
 
 
 def softmax(scores: Sequence[float]) -> list[float]:
-    """Probabilities in proportion to exp(score); alike if no score is finite."""
+    """Probabilities proportional to exp(score); uniform if no score is finite."""
     best = max(scores, default=0.0)
     if not math.isfinite(best):
         return [1 / len(scores)] * len(scores)

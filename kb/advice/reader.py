@@ -1,4 +1,4 @@
-"""The language model as one who reads commands that the grammar cannot."""
+"""Lets the language model read commands that the grammar cannot."""
 
 from executive.types.commands import CommandKind
 from executive.types.llm import ChatRequest, RankRequest
@@ -14,31 +14,31 @@ class Reader:
     """Implements `CommandReader`."""
 
     def __init__(self, ontology: Ontology, *, prompts: Prompts | None = None) -> None:
-        """Let through only what the ontology has; `prompts` None: those of prompts.toml."""
+        """Accept only names in the ontology; without `prompts`, use those in prompts.toml."""
         self._ontology = ontology
         self._texts = (prompts or Prompts.load()).understanding
 
     def ranking(self, words: str) -> RankRequest:
-        """Score what the words may ask the robot to do."""
+        """A request to score the kinds of command."""
         return commands.rank_request(words, self._texts)
 
     def ranked(self, scored: Scored) -> CommandKind:
-        """The likeliest of these kinds of command."""
+        """The likeliest kind of command."""
         return commands.likeliest(scored)
 
     def inquiry(self, words: str) -> ChatRequest:
-        """`command`: what do the words ask for?"""
+        """Prompt `command`: what do the words ask for?"""
         return commands.chat_request(words, self._things(), self._places(), self._texts)
 
     def read(self, reply: str) -> str:
-        """The tasks of the reply as a plain sentence; empty if one names what does not exist."""
+        """The tasks of the reply as a plain sentence; empty if one names something unknown."""
         known = [self._known(task) for task in commands.read(reply)]
         if None in known:
             return ""
         return ", then ".join(task.sentence for task in known if task)
 
     def _known(self, task: Asked) -> Asked | None:
-        """The task with the names that the ontology has; None if it has not all of them."""
+        """The task with the ontology's names; None if one of its names is unknown."""
         thing = self._thing(task.object) if task.object else ""
         places = [self._place(name) if name else "" for name in (task.source, task.goal)]
         if thing is None or None in places:
@@ -54,14 +54,14 @@ class Reader:
         return kinds[0] if len(kinds) == 1 else None
 
     def _place(self, words: str) -> str | None:
-        """Furniture or a room by the words, if they are all of its name."""
+        """The furniture or room whose name is exactly these words."""
         if words == ME:
             return ME
         reading = self._ontology.place_names.exactly(words)
         return next(iter((*reading.furniture, *reading.rooms)), None)
 
     def _things(self) -> tuple[str, ...]:
-        """Objects, and the classes above them: "a fruit"."""
+        """Objects, and the classes above them ("a fruit")."""
         objects = self._ontology.objects()
         return unique((*objects, *(c for name in objects for c in self._ontology.classes_of(name))))
 

@@ -1,4 +1,4 @@
-"""Reading a language model's reply, and holding what it names against what exists.
+"""Parses a language model's reply, and checks its names against the ontology.
 
 The paper's output parser and existence check. Pure functions.
 """
@@ -18,7 +18,7 @@ from kb.advice.lenient import Bare, values
 from kb.ontology.names import PlaceNames, unique
 
 MOST_CHARACTERS = 10_000
-"""Of a reply, counted from its end: looking through more could take seconds."""
+"""Only so many characters at the end of a reply are parsed; more could take seconds."""
 _OBJECT = re.compile(r"\{(?=\s*[\"}])")
 _BULLET = re.compile(r"^(?:\d{1,2}[.):]|[-*•–])\s+")
 _LISTED = re.compile(r"(?:\d{1,2}[.):]|[-*•–])\s+(\S.*)")
@@ -26,7 +26,7 @@ _LISTED = re.compile(r"(?:\d{1,2}[.):]|[-*•–])\s+(\S.*)")
 _MARKUP = "*_`\"',; "
 _BETWEEN = re.compile(r"[,;\n]")
 NAME_KEYS = ("name", "place", "furniture", "location", "room")
-"""What a model may call the name of a place, where it gives more than the name."""
+"""Keys of the name, if a model gives more than the name of a place."""
 
 
 class Reply(BaseModel):
@@ -38,9 +38,9 @@ class Reply(BaseModel):
 
 
 def schema(places: Sequence[str], most: int) -> dict[str, Any]:
-    """JSON schema of a reply that can name only these places, at most so many.
+    """JSON schema of a reply with at most `most` of these places.
 
-    For a model that can be held to a schema; what it writes is verified all the same.
+    For models that support a schema; the reply is verified in any case.
     """
     held = Reply.model_json_schema()
     held["properties"]["places"] |= {
@@ -52,12 +52,12 @@ def schema(places: Sequence[str], most: int) -> dict[str, Any]:
 
 
 def read(reply: str) -> tuple[str, ...] | None:
-    """The names in a reply, or None if nothing in it has the output format, more or less.
+    """The names in a reply; None if nothing in it resembles the output format. Never raises.
 
-    The last answer counts: a model that thinks aloud, or corrects itself, ends with what it means.
-    An object with `places` comes before a bare list or an object with one place. Each place is a
-    string, or an object that has one as its name. Where there are no brackets, a list of lines that
-    are numbered or dotted counts, if there is nothing else. Never raises.
+    The last answer counts: a model that reasons in its reply, or corrects itself, ends with its
+    result. An object with `places` takes precedence over a bare list or an object with one place.
+    Each place is a string, or an object with the string as its name. Without any brackets, a reply
+    that is only a numbered or bulleted list is accepted.
     """
     loose = None
     for value in last_first(reply):
@@ -70,7 +70,7 @@ def read(reply: str) -> tuple[str, ...] | None:
 
 
 def _lines(reply: str) -> list[str] | None:
-    """The names in a reply that is a list, one a line, and nothing else."""
+    """The names in a reply that consists only of list items, one on each line."""
     lines = (line.strip() for line in reply[-MOST_CHARACTERS:].split("\n"))
     found = [_LISTED.fullmatch(line) for line in lines if line and not line.startswith("```")]
     names = [line[1].strip(_MARKUP) for line in found if line]
@@ -78,17 +78,17 @@ def _lines(reply: str) -> list[str] | None:
 
 
 def _is_a_pattern(names: list[str]) -> bool:
-    """Whether it only shows what an answer looks like, as in `["...", "..."]`."""
+    """Whether it only shows the format of an answer, as in `["...", "..."]`."""
     return bool(names) and not any(map(str.isalnum, "".join(names)))
 
 
 def _tidied(names: list[str]) -> tuple[str, ...]:
-    """The names without the numbers and dots of a list."""
+    """The names without list numbers and bullets."""
     return tuple(_BULLET.sub("", writable(name).strip()) for name in names)
 
 
 def _places(value: object) -> list[str] | None:
-    """The names under `places`; None if it has none, or anything else among them."""
+    """The names under `places`; None if there are none, or if anything else is among them."""
     if not isinstance(value, dict):
         return None
     for key, named in value.items():
@@ -98,7 +98,7 @@ def _places(value: object) -> list[str] | None:
 
 
 def _listed(named: object) -> list[str] | None:
-    """The names in what is given as places: a list, a text with commas, or numbers by name."""
+    """The names in a list, in text with commas, or in the keys of an object with numbers."""
     if isinstance(named, list):
         return _names(named)
     if isinstance(named, str):
@@ -111,19 +111,19 @@ def _listed(named: object) -> list[str] | None:
 
 
 def _says_more(value: object) -> bool:
-    """Whether it is more than how likely something is."""
+    """Whether the value is more than a probability."""
     return value is not None and not isinstance(value, int | float)
 
 
 def _loosely(value: object) -> list[str] | None:
-    """The names in a bare list, or the one of an object; words without quotes are prose."""
+    """The names in a bare list, or the name of an object; a list of bare words is prose."""
     if not isinstance(value, list):
         return _name(value)
     return None if any(isinstance(part, Bare) for part in value) else _names(value)
 
 
 def _names(parts: list[object]) -> list[str] | None:
-    """One name for each part; null stands for no part, as numbers do."""
+    """One name for each part, ignoring null; None if a part has no name."""
     named = [_rated(part) or _name(part) for part in parts if part is not None]
     if parts and not named:
         return None
@@ -132,7 +132,7 @@ def _names(parts: list[object]) -> list[str] | None:
 
 
 def _rated(part: object) -> list[str] | None:
-    """The name in a pair of a name and how likely it is; None if it is something else."""
+    """The name in a pair of name and probability; None if it is no such pair."""
     if isinstance(part, dict) and not any(key.strip().lower() in NAME_KEYS for key in part):
         part = [value for pair in part.items() for value in pair]
     if not isinstance(part, list) or len(part) != 2 or _says_more(part[1]):
@@ -141,7 +141,7 @@ def _rated(part: object) -> list[str] | None:
 
 
 def _name(part: object) -> list[str] | None:
-    """The one name in this, as a list; None if there is none."""
+    """The name in this part, as a list; None if there is none."""
     if isinstance(part, dict):
         lower = {key.strip().lower(): value for key, value in part.items()}
         part = next((lower[key] for key in NAME_KEYS if key in lower), None)
@@ -149,16 +149,16 @@ def _name(part: object) -> list[str] | None:
 
 
 def allowed(places: Sequence[Place], among: Sequence[str]) -> tuple[Place, ...]:
-    """The places that may be named: those of `among`; all, if that is empty."""
+    """The places that may be named: those in `among`, or all if it is empty."""
     return tuple(place for place in places if not among or place.name in among)
 
 
 def verify(names: Sequence[str], known: PlaceNames, among: Sequence[str] = ()) -> Verdict:
-    """Which of the names are furniture, which are rooms, and which are nothing here.
+    """Sort the names into furniture, rooms, and names that are unknown here.
 
-    A name has to fit one piece of furniture or one room with all its words; it may be written as
-    people write it ("the kitchen cabinet"). With `among`, other furniture, and rooms that hold
-    none of it, are dropped as well.
+    All words of a name must match one piece of furniture or one room; variants as people write
+    them are accepted ("the kitchen cabinet"). With `among`, other furniture is dropped, and so are
+    rooms that contain none of it.
     """
     furniture: list[str] = []
     rooms: list[str] = []
@@ -176,11 +176,11 @@ def verify(names: Sequence[str], known: PlaceNames, among: Sequence[str] = ()) -
 
 
 def last_first(reply: str) -> list[object]:
-    """The objects and lists in the end of a reply, the last one first, an outer one before its own.
+    """The objects and lists at the end of a reply, last first, outer ones before inner ones.
 
-    What is JSON to the letter is found whatever stands before it, the rest as `lenient` does. Where
-    there is nothing, quotes may be spelled out, as in a web page or in JSON within JSON.
-    Never raises, and never takes long.
+    Strict JSON is found whatever precedes it; everything else is parsed by `lenient`. If nothing
+    is found, quotes may be escaped, as in a web page or in JSON within JSON. Never raises, and
+    takes bounded time.
     """
     text = reply[-MOST_CHARACTERS:]
     plain = text.replace("&quot;", '"').replace('\\"', '"')
@@ -189,7 +189,7 @@ def last_first(reply: str) -> list[object]:
 
 
 def _strictly(text: str) -> Iterator[tuple[int, object]]:
-    """What can be read as JSON from each opening brace on, with where it ends."""
+    """The strict JSON value at each opening brace, with its end position."""
     decoder = json.JSONDecoder()
     for begins in _OBJECT.finditer(text):
         try:

@@ -1,6 +1,6 @@
-"""Whether probabilities can be trusted: how often what is likely so is so.
+"""Whether probabilities can be trusted: how often a prediction with this probability is right.
 
-A thing of which several places are right is thought to be at one of them, each as likely.
+If several places of a thing are right, it is assumed to be at one of them, with equal probability.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -10,19 +10,19 @@ from statistics import fmean
 
 BINS = 10
 LEAST = 1e-6
-"""What is less likely counts as this, so that one surprise is not everything."""
+"""Smaller probabilities count as this, so that one surprise does not dominate."""
 
 
 @dataclass(frozen=True, slots=True)
 class Calibration:
-    """Of one way of finding out, over the things of a data set.
+    """The calibration of one method over the things of a data set.
 
     Attributes:
-        error: the expected calibration error of the place that comes first (Guo et al., "On
-            Calibration of Modern Neural Networks", 2017), from 0, which is best, to 1.
-        log_score: the mean logarithm of how likely the thing's place was said to be; 0 is best.
-        bins: of the first places with like probabilities (a tenth of the scale each): their mean
-            probability, how often they were right, and how many they are.
+        error: expected calibration error of the first place (Guo et al., "On Calibration of
+            Modern Neural Networks", 2017), from 0 (best) to 1.
+        log_score: mean log-probability of the right place; 0 is best.
+        bins: the first places, grouped by probability (bins of 0.1): mean probability, share of
+            right ones, and number.
     """
 
     error: float
@@ -31,7 +31,7 @@ class Calibration:
 
 
 def calibration(told: Iterable[tuple[Mapping[str, float], Sequence[str]]]) -> Calibration:
-    """Of the probabilities of places, each with the places that are right; at least one."""
+    """From pairs of predicted probabilities and right places; at least one pair."""
     sorted_in: list[list[tuple[float, float]]] = [[] for _ in range(BINS)]
     scores = []
     for probabilities, right in told:

@@ -1,4 +1,4 @@
-"""How good an order of places is, given those that are right; Manning et al., ch. 8."""
+"""Measures for an order of places, given the right ones; Manning et al., ch. 8."""
 
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import astuple, dataclass
@@ -26,7 +26,7 @@ class Measures:
 
 
 def measure(order: Sequence[str], right: Collection[str]) -> Measures:
-    """Of one order; a right place that it leaves out counts as never found."""
+    """The measures of one order; a right place that is not in it counts as never found."""
     ranks = [rank for rank, place in enumerate(order, start=1) if place in right]
     best = ranks[0] if ranks else float("inf")
     precisions = [found / rank for found, rank in enumerate(ranks, start=1)]
@@ -34,7 +34,7 @@ def measure(order: Sequence[str], right: Collection[str]) -> Measures:
 
 
 def expected_of_chance(places: int, right: int) -> Measures:
-    """The exact mean of `measure` over all orders of so many places, of which some are right."""
+    """The exact mean of `measure` over all orders of so many places, `right` of them right."""
     orders = comb(places, right)
 
     def within(rank: int) -> float:
@@ -49,5 +49,5 @@ def expected_of_chance(places: int, right: int) -> Measures:
 
 
 def mean(measures: Iterable[Measures]) -> Measures:
-    """Each measure's mean over at least one object."""
+    """The mean of each measure over at least one object."""
     return Measures(*map(fmean, zip(*map(astuple, measures), strict=True)))

@@ -1,8 +1,8 @@
 """Placements of TextWorld Commonsense: 501 household objects, 39 places, three folds.
 
-Data of Murugesan et al., "Text-based RL Agents with Commonsense Knowledge" (AAAI 2021), Apache-2.0,
-as they come with the PyPI package textworld-express. Its file is read; the package is not imported,
-because its engine needs Java.
+Data of Murugesan et al., "Text-based RL Agents with Commonsense Knowledge" (AAAI 2021),
+Apache-2.0, from the PyPI package textworld-express. Only its file is read; the package is not
+imported, because its engine needs Java.
 """
 
 import importlib.util
@@ -25,7 +25,7 @@ ON = frozenset(
         *("TV stand", "wall hook"),
     )
 )
-"""Places that things are on; they are in all others. The file does not say."""
+"""Places that things are on; things are in all others. The file does not say which."""
 
 
 class _Placement(BaseModel):
@@ -43,13 +43,13 @@ class _Folds(BaseModel):
 
 
 class Placements:
-    """Objects with their categories and right places, in three folds; none is in two of them."""
+    """Objects with their categories and right places, in three disjoint folds."""
 
     def __init__(self, file: Path | None = None) -> None:
-        """Read the file, or the one that is installed.
+        """Read the given file, or the installed one.
 
         Raises:
-            InputError: if there is none, or it is something else.
+            InputError: if there is no file, or it has another format.
         """
         folds = _read(file or _installed())
         self.folds = {
@@ -62,13 +62,13 @@ class Placements:
         """`train`, `valid` and `test`."""
 
     def places(self) -> tuple[str, ...]:
-        """Every place of any fold, by name."""
+        """All places of all folds, by name."""
         everything = chain.from_iterable(self.folds.values())
         return tuple(sorted(unique(place for known in everything for place in known.places)))
 
 
 def preposition(place: str) -> str:
-    """How things are with this place: "in" or "on"."""
+    """The preposition of this place: "in" or "on"."""
     return "on" if place in ON else "in"
 
 

@@ -1,4 +1,4 @@
-"""The benchmark's tables as a picture. Needs matplotlib, of the extra `benchmark`."""
+"""Draws the benchmark's tables. Needs matplotlib, from the extra `benchmark`."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -14,9 +14,9 @@ KINDS = (".svg", ".png", ".pdf")
 PRECISION, FIRST = "#0072B2", "#E69F00"
 """Blue and orange of Okabe and Ito, "Color Universal Design", 2008."""
 SIDE, LETTERS = 3.6, 44
-"""Of a square panel (inches), and of a line of its title."""
+"""Size of a square panel (inches); length of a title line (characters)."""
 WIDTH, LEGEND, TITLE, BAR = 8.0, 0.3, 0.7, 0.33
-"""Of the picture, of the legend, of a title with its axis, of a pair of bars (inches)."""
+"""Width of the picture; heights of legend, title with axis, and pair of bars (inches)."""
 
 
 def draw_reliability(path: Path, told: Mapping[str, Calibration]) -> None:
@@ -31,9 +31,9 @@ def draw_reliability(path: Path, told: Mapping[str, Calibration]) -> None:
 
 
 def reliability(told: Mapping[str, Calibration]) -> Figure:
-    """How often the first place is right, over how likely it was said to be; a panel for each.
+    """How often the first place is right, over its predicted probability; one panel for each set.
 
-    Above each tenth of the scale stands how many things are in it.
+    The number of things in each bin of 0.1 is written above it.
     """
     figure = Figure(figsize=(SIDE * max(1, len(told)), SIDE), layout="constrained")
     panels = figure.subplots(1, max(1, len(told)), squeeze=False)[0]
@@ -56,7 +56,7 @@ def reliability(told: Mapping[str, Calibration]) -> Figure:
 
 
 def draw(path: Path, tables: Mapping[str, Sequence[tuple[str, Measures]]]) -> None:
-    """Two bars for each way of finding out, a panel for each table.
+    """Draw two bars for each method, and one panel for each table.
 
     Raises:
         OSError: if the file cannot be written.

@@ -1,4 +1,4 @@
-"""What the benchmark of common sense asks: things, where they may be, and where they are."""
+"""The questions of the common-sense benchmark: things, possible places, and right places."""
 
 from dataclasses import dataclass
 
@@ -14,12 +14,12 @@ WHERE { ?name household:isIn ?room . ?name a ?k . ?k rdfs:subClassOf* household:
         ?room a ?r . ?r rdfs:subClassOf* household:Room }
 """
 HOME = ("home", "Room")
-"""Where furniture is of which nobody says in which room."""
+"""The room of furniture for which no room is given."""
 
 
 @dataclass(frozen=True, slots=True)
 class Item:
-    """Where is this thing? Its places are the right answer; others may be used to work it out."""
+    """Where is this thing? Its places are the right answer; `others` may serve as precedents."""
 
     thing: Known
     others: tuple[Known, ...] = ()
@@ -27,13 +27,13 @@ class Item:
 
 @dataclass(frozen=True, slots=True)
 class DataSet:
-    """Questions about the same places.
+    """Questions about the same set of places.
 
     Attributes:
         name: for the command line.
-        title: one line about it.
-        answers: each place, and the answer that stands for it when it is scored.
-        questions: what is asked.
+        title: a one-line description.
+        answers: each place, with the answer that is scored for it.
+        questions: the questions.
     """
 
     name: str
@@ -43,15 +43,15 @@ class DataSet:
 
     @property
     def places(self) -> tuple[Place, ...]:
-        """Every place that an answer may name."""
+        """All places that an answer may name."""
         return tuple(place for place, _ in self.answers)
 
 
 def survey(rest: bool = False) -> DataSet:
-    """The paper's survey: one object of each row of its table, the furniture that it was about.
+    """The paper's survey: one object from each row of its table, with the surveyed furniture.
 
-    The answers are our default locations, so nothing of them is known; or, for `rest`, all rows but
-    the one that is asked for.
+    The right answers are our default locations, so these are not given; with `rest`, those of all
+    other rows are.
     """
     told = Ontology()
     places = [Place(*map(str, row)) for row in told.query(SURVEYED).rows]
@@ -67,10 +67,10 @@ def survey(rest: bool = False) -> DataSet:
 
 
 def placements(data: Placements, fold: str, new: bool = False) -> DataSet:
-    """One fold of the placements; those of the train fold are known.
+    """One fold of the placements; the train fold is given as precedents.
 
-    The folds share many nouns: "white shirt", "blue shirt". `new` leaves only things whose noun
-    (last word) no known thing has.
+    The folds share many nouns: "white shirt", "blue shirt". `new` keeps only things whose noun
+    (last word) is in no precedent.
     """
     known = data.folds["train"]
     nouns = {words_of(thing.name)[-1] for thing in known} if new else set()
@@ -91,7 +91,7 @@ def placements(data: Placements, fold: str, new: bool = False) -> DataSet:
 
 
 def _rows(ontology: Ontology) -> tuple[str, ...]:
-    """One object of each row: a class of which all objects have the same default locations."""
+    """One object for each row: a class whose objects all have the same default locations."""
     rows: dict[str, str] = {}
     for name in ontology.objects():
         if ontology.among(name):

@@ -1,4 +1,4 @@
-"""What `python -m kb.benchmark` does: asks, and makes tables and pictures of the answers."""
+"""Runs the benchmark: asks the questions, and makes tables and pictures of the answers."""
 
 import argparse
 import json
@@ -34,9 +34,9 @@ WORDS = "where things of like names are"
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One way of finding out: its measures, and whether its probabilities can be trusted.
+    """One method: its measures, and its calibration if it gives probabilities.
 
-    What one object cost is told where a model was asked for it.
+    The cost of one object is given if a model was asked.
     """
 
     way: str
@@ -47,11 +47,11 @@ class Row:
 
 
 Tables = dict[str, list[Row]]
-"""By the names of the data sets."""
+"""The rows of each data set, by its name."""
 
 
 def table(data: DataSet, ask: Callable[[Item], Answer] | None, journal: Journal) -> list[Row]:
-    """Every way of finding out, the model's by `ask`."""
+    """All methods on a data set, those with a model through `ask`."""
     rows = list(baselines(data))
     if ask is None:
         return rows
@@ -66,7 +66,7 @@ def table(data: DataSet, ask: Callable[[Item], Answer] | None, journal: Journal)
 
 
 def _calibrated(data: DataSet, answers: Sequence[Answer], way: str) -> Calibration | None:
-    """None for a way that tells no probabilities."""
+    """None for a method without probabilities."""
     if not all(way in answer.likely for answer in answers):
         return None
     pairs = zip(answers, data.questions, strict=True)
@@ -74,10 +74,10 @@ def _calibrated(data: DataSet, answers: Sequence[Answer], way: str) -> Calibrati
 
 
 def baselines(data: DataSet) -> Iterator[Row]:
-    """What is possible without a model.
+    """The methods without a model.
 
-    Popularity counts what is recorded. Where nothing is, it counts the answers themselves, which
-    nobody can know beforehand: it shows how far one order for all objects may get.
+    Popularity counts the precedents. If there are none, it counts the right answers themselves,
+    which is hindsight: an upper bound for a single order for all objects.
     """
     places = [place.name for place in data.places]
     chances = (expected_of_chance(len(places), len(q.thing.places)) for q in data.questions)
@@ -98,7 +98,7 @@ def _measured(data: DataSet, orders: Sequence[Sequence[str]]) -> Measures:
 
 
 def _by_words(question: Item, places: Sequence[str]) -> Floats:
-    """What precedents say if things are alike that share words or a class."""
+    """The prediction from precedents if things are alike by common words or a common class."""
     things = (question.thing, *question.others)
     names = [words_of(thing.name) for thing in things]
     vocabulary = sorted({word for name in names for word in name})
@@ -112,7 +112,7 @@ def _shares(things: Sequence[Known], places: Sequence[str]) -> Floats:
 
 
 def text(data: DataSet, rows: Sequence[Row]) -> str:
-    """The table."""
+    """The table as text."""
     counts = f"{len(data.places)} places, {len(data.questions)} objects"
     heads = ("first", "in 3", "in 5", "RR", "mAP", "ECE", "log", "s/object", "tokens")
     lines = [f"{data.title}\n{counts:44}" + "".join(f"{head:>9}" for head in heads)]
@@ -127,10 +127,10 @@ def text(data: DataSet, rows: Sequence[Row]) -> str:
 
 
 def run(given: argparse.Namespace) -> None:
-    """Ask, print, and draw what the options name.
+    """Ask, print, and draw what the options require.
 
     Raises:
-        ExecutiveError: if one of them is wrong.
+        ExecutiveError: if an option is wrong.
     """
     draw = _plotter("--plot", given.plot, _bars) if given.plot else None
     draw_reliability = None
@@ -152,7 +152,7 @@ def run(given: argparse.Namespace) -> None:
 
 
 def _asked(data: DataSet, given: argparse.Namespace, journal: Journal) -> list[Row]:
-    """The table of one data set, by a model that remembers nothing of another one."""
+    """The table of one data set, by a fresh model that remembers no other set."""
     inbox = Inbox()
     model = _model(given, inbox)
     if model is None:
@@ -166,7 +166,7 @@ Draw = Callable[[Path, Sequence[DataSet], Tables], None]
 
 
 def _plotter(option: str, path: Path, draw: Draw) -> Callable[[Sequence[DataSet], Tables], None]:
-    """Draws into this file; found out before the model is asked whether that is possible."""
+    """A function that draws into this file; checked before the model is asked anything."""
     try:
         from kb.benchmark import plot
     except ModuleNotFoundError as error:
@@ -215,7 +215,7 @@ def _model(given: argparse.Namespace, inbox: Inbox) -> LanguageModel | None:
 
 
 def _described(given: argparse.Namespace) -> dict[str, object]:
-    """What the answers depend on."""
+    """The options that the answers depend on."""
     names = ("llm", "elicit", "grammar", "seed", "fold")
     return {name: getattr(given, name) for name in names} | {"prompts": str(given.prompts)}
 

@@ -1,4 +1,4 @@
-"""Putting the questions of a data set to a language model, and keeping the answers."""
+"""Asks a language model the questions of a data set, and keeps the answers."""
 
 import json
 from collections.abc import Callable, Iterator, Sequence
@@ -32,14 +32,14 @@ WRITTEN = "a list that the model writes, verified"
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """What came of one question.
+    """The answer to one question.
 
     Attributes:
-        object: what it was about.
-        orders: by each means, the places, the likeliest first.
-        seconds: how long what the robot does took.
-        tokens: how many tokens were evaluated for it; written ones count, too.
-        likely: by each means that tells it, how likely each place is.
+        object: the thing in question.
+        orders: for each method, the places, likeliest first.
+        seconds: duration of the robot's own method (s).
+        tokens: tokens evaluated for it, including written ones.
+        likely: for each method with probabilities, the probability of each place.
     """
 
     object: str
@@ -53,7 +53,7 @@ Ask = Callable[[Item], Answer]
 
 
 def ranking(data: DataSet, model: LanguageModel, inbox: Inbox, prompts: Prompts) -> Ask:
-    """Score every place; also with less than the robot uses, to see what each means brings."""
+    """Score every place; also with parts of the method, to show what each contributes."""
     names = [place.name for place in data.places]
 
     def scores(request: RankRequest) -> tuple[Floats, Usage]:
@@ -90,7 +90,7 @@ def ranking(data: DataSet, model: LanguageModel, inbox: Inbox, prompts: Prompts)
 
 
 def writing(data: DataSet, model: LanguageModel, inbox: Inbox, prompts: Prompts) -> Ask:
-    """Have a list written, the paper's way, and keep what exists."""
+    """Have the model write a list (the paper's method), and keep the places that exist."""
     ontology = Ontology(data.places, defaults=False)
     lister = Lister(ontology, model, remembers=False, prompts=prompts)
 
@@ -107,18 +107,18 @@ def writing(data: DataSet, model: LanguageModel, inbox: Inbox, prompts: Prompts)
 
 
 def descending(values: Floats, places: Sequence[str]) -> list[str]:
-    """The places, the highest value first; equals stay in their order."""
+    """The places by value, highest first; ties keep their order."""
     return [places[i] for i in np.argsort(-values, kind="stable")]
 
 
 class Journal:
-    """Answers as lines of JSON, so that a run that was stopped goes on where it was."""
+    """Answers as lines of JSON, so that an interrupted run can be continued."""
 
     def __init__(self, file: Path | None, run: dict[str, object]) -> None:
-        """Open the file, if there is one, or begin it; `run` says what the answers are answers to.
+        """Open or create the file; `run` identifies the settings of the answers.
 
         Raises:
-            InputError: if it is the journal of another run, or none.
+            InputError: if it is the journal of another run, or no journal.
         """
         self._file = file
         self._kept: dict[tuple[str, str], Answer] = {}
@@ -138,7 +138,7 @@ class Journal:
             raise InputError(str(file), f"is the journal of another run: {head}", "name another")
 
     def answers(self, data: DataSet, ask: Ask) -> Iterator[Answer]:
-        """All answers, kept or new, in the order of the questions; progress goes to stderr."""
+        """All answers in the order of the questions, kept or new; progress is shown on stderr."""
         for number, question in enumerate(data.questions, start=1):
             show_over(f"{data.name} {number}/{len(data.questions)} {question.thing.name}")
             key = data.name, question.thing.name
@@ -155,7 +155,7 @@ class Journal:
 
 
 def _lines(file: Path) -> list[Any]:
-    """The objects in the lines of a file; a last line that was broken off does not count."""
+    """The JSON lines of a file, without an incomplete last line."""
     lines = file.read_text().splitlines(keepends=True) if file.exists() else []
     if len(lines) > 1 and not lines[-1].endswith("\n"):
         lines.pop()
@@ -163,7 +163,7 @@ def _lines(file: Path) -> list[Any]:
 
 
 def _end(inbox: Inbox) -> Scored | Replied:
-    """The end of the request that is under way.
+    """The result of the open request.
 
     Raises:
         ModelError: if the model failed.

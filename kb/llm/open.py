@@ -1,6 +1,6 @@
-"""Which language model `--llm` names, and the only place where one is made of settings.
+"""Opens the language model that `--llm` names; nothing else creates one from settings.
 
-The libraries of a model are imported when it is opened, because a mission may do without it.
+The libraries of a model are imported only when it is opened, since a mission may not need one.
 """
 
 from pathlib import Path
@@ -14,10 +14,10 @@ from kb.llm.options import ModelOptions
 
 
 def model_for_missions(settings: Settings, inbox: Inbox) -> LanguageModel | None:
-    """The model of missions, if they have one; it loads while the rest is built.
+    """The model for missions, or None; it loads in the background.
 
     Raises:
-        ExecutiveError: if it cannot do what the settings ask of it, or its file is wrong.
+        ExecutiveError: if it cannot do what the settings require, or its file is invalid.
     """
     if not settings.uses_llm:
         return None
@@ -31,10 +31,10 @@ def model_for_missions(settings: Settings, inbox: Inbox) -> LanguageModel | None
 
 
 def open_model(settings: Settings, inbox: Inbox) -> LanguageModel | None:
-    """The model that the settings name; None for `none`.
+    """The model in the settings; None for `none`.
 
     Raises:
-        ExecutiveError: if its file is wrong.
+        ExecutiveError: if its file is invalid.
     """
     if settings.llm == "none":
         return None
@@ -61,7 +61,7 @@ def open_model(settings: Settings, inbox: Inbox) -> LanguageModel | None:
 
 
 def _options_of(settings: Settings) -> ModelOptions:
-    """How the model is to write."""
+    """The options in the settings."""
     return ModelOptions(
         context_tokens=settings.context_tokens,
         temperature=settings.temperature,

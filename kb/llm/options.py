@@ -1,4 +1,4 @@
-"""What a language model is told about how to write, whether it runs here or at a server."""
+"""Options of a language model, in this process or on a server."""
 
 from dataclasses import dataclass
 
@@ -7,16 +7,16 @@ from kb.llm.sampling import Sampling
 
 @dataclass(frozen=True, slots=True)
 class ModelOptions:
-    """How a model writes; how freely, by default, is the paper's.
+    """How a model writes; the sampling defaults are the paper's.
 
     Attributes:
-        context_tokens: size of its context window; that of a server, as it was started with.
-        temperature: 0 always takes the likeliest token.
-        top_p: share of the probability that is sampled from.
-        max_tokens: longest reply.
+        context_tokens: size of the context window; for a server, as it was started.
+        temperature: with 0, the likeliest token is always taken.
+        top_p: share of the probability mass to sample from.
+        max_tokens: length limit of a reply.
         seed: the same seed and prompt give the same reply, whatever was asked before; a server may
-            not heed it.
-        grammar: whether replies are held to the request's JSON schema; a server is asked to.
+            ignore it.
+        grammar: whether replies must conform to the request's JSON schema; a server is asked to.
     """
 
     context_tokens: int = 4096
@@ -33,4 +33,4 @@ class ModelOptions:
 
 
 USUAL = ModelOptions()
-"""What is told if nothing else is."""
+"""The defaults."""

@@ -1,4 +1,4 @@
-"""Chooses the next token from the model's scores."""
+"""Chooses the next token from the model's logits."""
 
 from typing import Any
 
@@ -11,16 +11,16 @@ from kb.llm.sampling import Sampling
 
 
 class Sampler:
-    """Temperature, then nucleus, then a seeded draw; a grammar, if given, comes before them.
+    """Temperature, then top-p, then a seeded draw; a grammar, if given, is applied first.
 
-    The order is that of the reference code of Llama 2.
+    This is the order in the reference code of Llama 2.
     """
 
     def __init__(self, model: Gguf, sampling: Sampling, grammar: str | None = None) -> None:
-        """Begin a reply; `grammar` is in llama.cpp's GBNF.
+        """Start a reply; `grammar` is in llama.cpp's GBNF.
 
         Raises:
-            ModelError: if llama.cpp cannot read the grammar.
+            ModelError: if llama.cpp cannot parse the grammar.
         """
         params = llama_cpp.llama_sampler_chain_default_params()
         self._chain: Any = llama_cpp.llama_sampler_chain_init(params)
@@ -43,9 +43,9 @@ class Sampler:
             llama_cpp.llama_sampler_chain_add(self._chain, step)
 
     def sample(self, context: Context) -> int:
-        """The next token after what the context has read."""
+        """The next token after the last one of the context."""
         return int(llama_cpp.llama_sampler_sample(self._chain, context.pointer, -1))
 
     def close(self) -> None:
-        """Free it."""
+        """Free the memory."""
         llama_cpp.llama_sampler_free(self._chain)

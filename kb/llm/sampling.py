@@ -1,11 +1,11 @@
-"""How the next token is chosen from the model's scores."""
+"""Sampling parameters: how the next token is chosen from the logits."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
 class Sampling:
-    """How freely to choose: temperature 0 always takes the likeliest token."""
+    """Temperature 0 always takes the likeliest token; the same seed gives the same choices."""
 
     temperature: float
     top_p: float

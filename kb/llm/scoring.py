@@ -1,4 +1,4 @@
-"""How likely each of some options is as the next words of a chat, and what like chats suggest."""
+"""Scores options as the next words of a chat: by likelihood, and by precedents."""
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING
@@ -20,33 +20,32 @@ Chat = tuple[Message, ...]
 class Scorer:
     """Scores options. Belongs to one thread.
 
-    What all chats begin with stays in the KV cache. What was worked out once is remembered, and
-    kept for other processes: likelihoods, those of the neutral chat above all, and states, which
-    each thing has that is asked for or is a precedent.
+    The common beginning of all chats stays in the KV cache. Likelihoods (above all those of the
+    neutral chat) and hidden states (one for each thing asked about or given as a precedent) are
+    remembered, and kept for other processes.
     """
 
     def __init__(self, load: "Callable[[], Loaded]", kept: Kept | None = None) -> None:
-        """Score with the model that is loaded, in its context for that.
+        """Score with the model's context for scoring.
 
-        What others worked out is looked for in what was `kept`; the model is loaded for what is
-        not there.
+        Results in `kept` are reused; the model is loaded only for what is missing there.
         """
         self._load = load
         self._kept = kept
         self._lengths: dict[Chat, int] = {}
-        """How many tokens each chat is that was read."""
+        """Number of tokens of each chat that was read."""
         self._options: dict[tuple[str, ...], int] = {}
-        """How many tokens options are, all together."""
+        """Total number of tokens of these options."""
         self._states: dict[Chat, Floats] = {}
-        """The model's state where the next turn of each begins."""
+        """The hidden state at the end of each chat, where the next turn begins."""
         self._likelihoods: dict[tuple[Chat, tuple[str, ...]], Floats] = {}
 
     def score(self, request: RankRequest, checkpoint: "Checkpoint") -> Floats:
-        """(options,) the logarithm of how likely each option is, up to a constant.
+        """(options,) log-probability of each option, up to a constant.
 
         Raises:
-            ModelError: if a chat is too long, or an option is empty or too long, or if there is not
-                enough memory.
+            ModelError: if a chat is too long, an option is empty or too long, or memory is
+                insufficient.
         """
         self.prepare(request, checkpoint)
         likelihoods = self._likelihood(request.messages, request.options, checkpoint)
@@ -63,7 +62,7 @@ class Scorer:
         return scores
 
     def prepare(self, request: RankRequest, checkpoint: "Checkpoint") -> None:
-        """Work out what other requests share with this one: all but what is about its own thing.
+        """Compute what other requests share with this one: all but the chat about its own thing.
 
         Raises:
             ModelError: as `score` does.
@@ -74,14 +73,14 @@ class Scorer:
             self._state(precedent.messages, checkpoint)
 
     def tokens(self, request: RankRequest) -> int:
-        """How many there are in all chats and options of a request, which has been scored."""
+        """Total number of tokens of the chats and options of a request that was scored."""
         compared = [chat for chat in (request.messages, request.neutral) if chat]
         chats = (*compared, *(precedent.messages for precedent in request.precedents))
         options = self._options[request.options] * len(compared)
         return sum(self._lengths[chat] for chat in chats) + options
 
     def _likelihood(self, chat: Chat, options: tuple[str, ...], checkpoint: "Checkpoint") -> Floats:
-        """(options,) log P(option | chat), which is kept."""
+        """(options,) log P(option | chat); cached."""
         if (chat, options) not in self._likelihoods:
             known = self._recall(2 + len(options), "likelihoods", chat, options)
             if known is None:
@@ -96,7 +95,7 @@ class Scorer:
         return self._likelihoods[chat, options]
 
     def _state(self, chat: Chat, checkpoint: "Checkpoint") -> Floats:
-        """What the model makes of a chat, which is kept."""
+        """(width,) hidden state at the end of a chat; cached."""
         if chat not in self._states:
             known = self._recall(None, "state", chat)
             if known is None:
@@ -106,7 +105,7 @@ class Scorer:
         return self._states[chat]
 
     def _recall(self, count: int | None, *about: object) -> Floats | None:
-        """Numbers that are kept, so many or however many: how long a chat is, and what of it."""
+        """Kept numbers (`count`; None: any number): the length of the chat, then the result."""
         return self._kept.numbers(count, *about) if self._kept else None
 
     def _remember(self, numbers: Floats, *about: object) -> None:
@@ -114,7 +113,7 @@ class Scorer:
             self._kept.put_numbers(numbers, *about)
 
     def _evaluate(self, chat: Chat, checkpoint: "Checkpoint") -> None:
-        """Make it what the context has read; all but its last turn is shared with others."""
+        """Read the chat into the context; all but its last turn is shared with other chats."""
         loaded = self._load()
         tokens, head = loaded.model.prompt(chat, (*chat[:-1], Message("user", "")))
         loaded.scoring.read(tokens, head, checkpoint)

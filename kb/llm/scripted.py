@@ -1,4 +1,4 @@
-"""A stand-in for a language model: it says what it was told to say."""
+"""A scripted stand-in for a language model."""
 
 from collections import deque
 from collections.abc import Iterable, Sequence
@@ -11,10 +11,10 @@ Reply = str | Sequence[float] | None
 
 
 class Scripted:
-    """Implements `LanguageModel` with replies that were written before; each request ends at once.
+    """Implements `LanguageModel` with prepared replies; each request ends at once.
 
-    A text answers `chat`, numbers answer `rank`, and None is a model that never answers. Without a
-    fitting reply a request ends Failed. `requests` holds what was asked, oldest first.
+    A text answers `chat`, numbers answer `rank`; for None, no answer ever comes. Without a fitting
+    reply, a request ends Failed. `requests` holds all requests, oldest first.
     """
 
     name = "scripted"
@@ -27,7 +27,7 @@ class Scripted:
         can_rank: bool = True,
         context_tokens: int = 4096,
     ) -> None:
-        """Give the replies in the order in which they will be asked for."""
+        """`replies` are given in order."""
         self.can_rank = can_rank
         self.context_tokens = context_tokens
         self.requests: list[ChatRequest | RankRequest] = []
@@ -35,7 +35,7 @@ class Scripted:
         self._inbox = inbox
 
     def chat(self, request: ChatRequest) -> int:
-        """Say the next reply; ends Replied, or Failed."""
+        """Give the next text; ends Replied, or Failed."""
         return self._answer(request)
 
     def rank(self, request: RankRequest) -> int:
@@ -43,18 +43,18 @@ class Scripted:
         return self._answer(request)
 
     def prepare(self, request: ChatRequest | RankRequest) -> None:
-        """Nothing to prepare."""
+        """Does nothing."""
 
     def cancel(self, request: int) -> None:
-        """Forget the request."""
+        """Drop the request."""
         self._inbox.drop(request)
 
     def count_tokens(self, text: str) -> int:
-        """How many words the text has."""
+        """Number of words of the text."""
         return len(text.split())
 
     def close(self) -> None:
-        """Nothing to free."""
+        """Does nothing."""
 
     def _answer(self, request: ChatRequest | RankRequest) -> int:
         self.requests.append(request)

@@ -1,4 +1,4 @@
-"""A model's chat template: how it was taught to read a chat."""
+"""A model's chat template: formats a chat as the model was trained to read it."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -27,10 +27,10 @@ _CHATS = (
 
 
 class Template:
-    """Fills in a template, in jinja's sandbox. One that knows no system turn is given none."""
+    """Fills in a chat template, in jinja's sandbox; without a system turn if it supports none."""
 
     def __init__(self, text: str, begin: str, end: str) -> None:
-        """Read it, and try it.
+        """Parse the template and test it.
 
         Args:
             text: the template.
@@ -38,7 +38,7 @@ class Template:
             end: markup of the token that ends one.
 
         Raises:
-            ModelError: if it cannot be read, or leaves out what is said.
+            ModelError: if it cannot be parsed, or omits the content of turns.
         """
         try:
             self._formatter = Jinja2ChatFormatter(text, eos_token=end, bos_token=begin)
@@ -53,10 +53,10 @@ class Template:
                 raise ModelError("its chat template leaves out what is said")
 
     def fill(self, chat: Sequence[Message]) -> str:
-        """The chat as one text, up to where the model's next turn begins.
+        """The chat as one text, up to the start of the model's next turn.
 
         Raises:
-            ModelError: if the template refuses it.
+            ModelError: if the template raises, or the text is far too long.
         """
         chat = chat if self._knows_system else without_system(chat)
         turns: Any = [{"role": turn.role, "content": turn.content} for turn in chat]
@@ -70,7 +70,7 @@ class Template:
         return text
 
     def _says(self, *parts: str) -> bool:
-        """Whether all that is said in the chats is said in the text."""
+        """Whether the text of each test chat contains all these parts."""
         try:
             return all(part in self.fill(chat) for chat in _CHATS for part in parts)
         except ModelError:

@@ -1,4 +1,4 @@
-"""What a model thinks before it answers, and the answer without it."""
+"""Separates a model's answer from its reasoning."""
 
 import re
 
@@ -13,15 +13,16 @@ _MARK = re.compile(
 _CHANNEL = re.compile(r"<\|channel\|>\s*(\w+)(?:[^<]|<\|constrain\|>){0,200}<\|message\|>")
 _WITHOUT_MARKS = re.compile(r"\s*analysis(?=[A-Z])")
 _FINAL_WITHOUT_MARKS = "assistantfinal"
-"""As some servers give the channels of gpt-oss."""
+"""The form in which some servers return the channels of gpt-oss."""
 _TURN_ENDS = re.compile(r"<\|(?:end|return|start|call)\|>")
 
 
 def answer_of(text: str) -> tuple[str, bool]:
-    """The text without what was thought, and whether anything was.
+    """The text without the reasoning, and whether there was any.
 
-    Thoughts stand between `<think>` and `</think>` or marks like these. One that is not closed goes
-    on to the end; one that is not opened (the chat's template may have done so) began at the start.
+    Reasoning is between `<think>` and `</think>` or similar marks. Without a closing mark it goes
+    on to the end; without an opening mark (the chat template may contain it) it begins at the
+    start.
     """
     if channels := list(_CHANNEL.finditer(text)):
         return _final_of(text, channels), True
@@ -44,7 +45,7 @@ def answer_of(text: str) -> tuple[str, bool]:
 
 
 def _final_of(text: str, channels: list[re.Match[str]]) -> str:
-    """What is said in the last channel `final`, in the way of gpt-oss; empty if there is none."""
+    """The text of the last channel, if that is `final` (format of gpt-oss); else empty."""
     last = channels[-1]
     if last[1].lower() != "final":
         return ""
@@ -52,5 +53,5 @@ def _final_of(text: str, channels: list[re.Match[str]]) -> str:
 
 
 def used_up(tokens: int) -> str:
-    """The failure of a model that was cut off before its answer."""
+    """The failure message of a model that was cut off before its answer."""
     return f"it used up its {tokens} tokens while thinking; raise max_tokens"

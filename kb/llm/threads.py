@@ -1,4 +1,4 @@
-"""Threads that never keep the program from ending."""
+"""Daemon threads, which never keep the program from ending."""
 
 import queue
 import threading
@@ -11,13 +11,14 @@ T = TypeVar("T")
 
 
 class Daemons(ThreadPoolExecutor):
-    """A thread for each task. Python waits at its end for those of its own pools, for these not.
+    """An executor with one daemon thread for each task.
 
-    For what an event loop does elsewhere, such as asking for the address of a host.
+    At exit, Python waits for threads of ordinary pools, but not for these. Meant for what an event
+    loop runs in an executor, such as a DNS lookup.
     """
 
     def submit(self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> Future[T]:
-        """Begin at once."""
+        """Run the task at once, in a new thread."""
         future: Future[T] = Future()
         work = _Work(future, lambda: fn(*args, **kwargs))
         threading.Thread(target=work.run, name="helper", daemon=True).start()
@@ -25,7 +26,7 @@ class Daemons(ThreadPoolExecutor):
 
 
 class Worker:
-    """One thread that does one task after the other, in their order."""
+    """One daemon thread that runs tasks in order."""
 
     def __init__(self, name: str) -> None:
         """Start the thread."""
@@ -34,13 +35,13 @@ class Worker:
         self._thread.start()
 
     def submit(self, task: Callable[[], T]) -> Future[T]:
-        """Do it when all that was submitted before is done."""
+        """Run the task after all that were submitted before."""
         future: Future[T] = Future()
         self._todo.put(_Work(future, task))
         return future
 
     def end(self, patience_s: float) -> bool:
-        """Leave out what has not begun, and wait; False if what has begun is stuck."""
+        """Cancel the tasks not started yet, and wait; False if the running one does not end."""
         try:
             while work := self._todo.get_nowait():
                 work.future.cancel()
@@ -56,16 +57,16 @@ class Worker:
 
 
 class _Work:
-    """A task, and where its result goes."""
+    """A task and the future of its result."""
 
     def __init__(self, future: Future[Any], task: Callable[[], Any]) -> None:
         self.future, self._task = future, task
 
     def run(self) -> None:
-        """Do it, unless it was called off."""
+        """Run the task, unless it was cancelled."""
         if not self.future.set_running_or_notify_cancel():
             return
         try:
             self.future.set_result(self._task())
-        except BaseException as error:  # whoever waits is told
+        except BaseException as error:  # the future passes it on
             self.future.set_exception(error)

@@ -1,4 +1,4 @@
-"""Loading an unknown model file, in a process that may die of it (`first_load`)."""
+"""Checks an unknown model file; runs in a child process that may crash (`first_load`)."""
 
 import os
 import resource
@@ -15,14 +15,14 @@ from kb.llm.gguf_header import RANKS, TEMPLATE, WRITES, read_header, refuse_what
 from kb.llm.template import Template
 
 SPARE_MEMORY = 8 << 30
-"""Bytes that loading a file may take beside twice its size."""
+"""Memory limit (bytes) for loading, in addition to twice the file size."""
 TEMPLATE_S = 10
-"""How long a chat template may take."""
+"""Time limit for a chat template (s)."""
 CHAT = (Message("system", "You know a home."), Message("user", "Where is the mug?"))
 
 
 def main() -> None:
-    """Load the file that is named on the command line; say what can be done with it, or why not."""
+    """Load the file named on the command line; print what it can do, or why it cannot be used."""
     path = Path(sys.argv[1])
     memory = 2 * path.stat().st_size + SPARE_MEMORY
     resource.setrlimit(resource.RLIMIT_DATA, (memory, memory))

@@ -1,4 +1,4 @@
-"""A chat as models want it that know no system turn, such as Gemma 2."""
+"""Chats for models that support no system turn, such as Gemma 2."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -7,7 +7,7 @@ from executive.types.llm import Message
 
 
 def without_system(chat: Sequence[Message]) -> tuple[Message, ...]:
-    """The same chat, what its system turns say at the head of the first turn of the user."""
+    """The chat with the content of its system turns at the start of the first user turn."""
     system = [turn.content for turn in chat if turn.role == "system"]
     others = [turn for turn in chat if turn.role != "system"]
     first = next((i for i, turn in enumerate(others) if turn.role == "user"), None)

@@ -19,15 +19,15 @@ INDIVIDUALS = "http://robot-executive.org/home.owl#"
 
 
 class HomeAdditions:
-    """Puts what is in a home into the graph of the ontology, and keeps what that was."""
+    """Adds the furniture, rooms and things of a home to the graph, and remembers them."""
 
     def __init__(self, graph: Graph, namespace: str, home: str) -> None:
-        """Add nothing yet.
+        """Nothing is added yet.
 
         Args:
-            graph: what the files say.
-            namespace: where our classes and properties are.
-            home: the file that places and things are of, to be named when one of them is wrong.
+            graph: the triples of the files.
+            namespace: the IRI prefix of our classes and properties.
+            home: the home file, for error messages.
         """
         self._graph = graph
         self._namespace = namespace
@@ -37,15 +37,15 @@ class HomeAdditions:
             root: _by_name(graph.downwards(self._iri(root)))
             for root in ("Furniture", "Room", "Object")
         }
-        """The classes of the files by name, below each of these."""
+        """For each of these root classes, the classes below it by name."""
         self._places: dict[str, Place] = {}
         self._things: dict[str, tuple[Identifier, str]] = {}
 
     def add_furniture(self, place: Place) -> None:
-        """Put a piece of furniture, and its room, in.
+        """Add a piece of furniture and its room.
 
         Raises:
-            InputError: if it is of a class that the ontology does not have.
+            InputError: if the ontology does not have its class.
         """
         room = self._individual(place.room, place.room_kind, "Room")
         piece = self._individual(place.name, place.kind, "Furniture")
@@ -53,11 +53,11 @@ class HomeAdditions:
         self._places[place.name] = place
 
     def add_thing(self, thing: Thing) -> None:
-        """Put an object in, unless a file has it already.
+        """Add an object, unless a file declares it already.
 
         Raises:
-            InputError: if it is of a class that the ontology does not have, or is called like
-                something else.
+            InputError: if the ontology does not have its class, or the name belongs to something
+                else.
         """
         kind = self._kind(f"object {thing.name}", thing.kind, "Object")
         own = URIRef(INDIVIDUALS + thing.name)
@@ -70,7 +70,7 @@ class HomeAdditions:
         self._things[thing.name] = (kind, color)
 
     def faults(self, places: Iterable[Place], things: Iterable[Thing]) -> Iterator[InputError]:
-        """All for which some of these cannot be put in; the others are."""
+        """The faults of these; all the others are added."""
         rooms, put = dict[str, str](), list[Callable[[], object]]()
         for place in places:
             rooms[place.room] = place.room_kind
@@ -84,7 +84,7 @@ class HomeAdditions:
                 yield fault
 
     def file(self) -> bytes:
-        """All of it, in RDF/XML."""
+        """The additions as RDF/XML."""
         is_in, color = self._iri("isIn"), self._properties.iri(COLOR)
         furniture, rooms = self.kinds["Furniture"], self.kinds["Room"]
         places = self._places.values()
@@ -110,7 +110,7 @@ class HomeAdditions:
 
 
 def _by_name(kinds: Iterable[Identifier]) -> dict[str, Identifier]:
-    """Classes by the ends of their IRIs; the first of a name has it."""
+    """Classes by the last part of their IRI; of several with one name, the first."""
     named: dict[str, Identifier] = {}
     for kind in kinds:
         named.setdefault(ending(kind), kind)

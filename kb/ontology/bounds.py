@@ -1,4 +1,4 @@
-"""What an XML file may ask of its reader: no file, no address, and a bounded amount of work."""
+"""Limits for reading an XML file: no other file, no address, and a bounded amount of work."""
 
 from dataclasses import dataclass, field
 from xml.parsers import expat
@@ -8,19 +8,19 @@ from executive.text import printable
 from kb.ontology.syntax import SAVE
 
 MOST_DEPTH = 200
-"""Elements in one another: what people nest has a dozen."""
+"""Nested elements; hand-written files have a dozen."""
 LONGEST_ENTITY = 1_000
-"""Characters of an entity, which stands for the beginning of an IRI."""
+"""Characters of an entity, which abbreviates the beginning of an IRI."""
 MOST_EXPANDED = 30_000_000
-"""Characters that all entities may come to, wherever they are used."""
+"""Characters of all entities after expansion."""
 LONGEST_TEXT = 20_000
-"""Characters of one value, which rdflib copies with each line that it adds."""
+"""Characters of one value; rdflib copies it for each line that it appends."""
 MOST_NAMESPACES = 500
-"""Prefixes known at one place, all of which are copied with each one more."""
+"""Prefixes declared at one place; all are copied for each further one."""
 MOST_MARKUP, MOST_MARKED_UP = 2_000, 100_000
 """Pieces and characters of all values that are XML themselves (`rdf:parseType="Literal"`).
 
-rdflib reads such a value again with each piece that it adds.
+rdflib parses such a value again for each piece that it appends.
 """
 
 _RDF = "http://www.w3.org/1999/02/22-rdf-syntax-ns# RDF"
@@ -31,7 +31,7 @@ _BASE = "http://www.w3.org/XML/1998/namespace base"
 
 @dataclass(slots=True)
 class _Bounds:
-    """Handlers of expat: they raise as soon as something is too much."""
+    """Handlers for expat, which raise an InputError as soon as a limit is exceeded."""
 
     where: str
     content: bytes
@@ -115,10 +115,10 @@ class _Bounds:
 
 
 def base_of_bounded(content: bytes, where: str) -> str:
-    """The xml:base of an RDF/XML file, empty if it has none.
+    """Check the limits, and return the xml:base of an RDF/XML file (empty if it has none).
 
     Raises:
-        InputError: if it is no XML, no RDF/XML, refers to another file, or is too much to read.
+        InputError: if it is not RDF/XML, refers to another file, or exceeds a limit.
     """
     bounds = _Bounds(where, content)
     parser = expat.ParserCreate(namespace_separator=" ")

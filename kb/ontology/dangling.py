@@ -1,4 +1,4 @@
-"""Links to nothing: names that a file uses and that no file declares."""
+"""Dangling links: names that a file uses and that no file declares."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -12,9 +12,9 @@ from kb.ontology.graph import STANDARDS, Graph
 from kb.ontology.owl import ending
 
 LEAST_LIKENESS = 75.0
-"""Of 100, as rapidfuzz counts: so alike are a name and a slip of it."""
+"""Minimum likeness (0 to 100, rapidfuzz) of a name and its misspelling."""
 MOST_COMPARED = 100
-"""Names for which the one that they are a slip of is looked for."""
+"""Only for so many names, the right spelling is searched."""
 
 _LINKS = frozenset(
     (RDF.type, RDF.first, RDFS.subClassOf, RDFS.subPropertyOf, RDFS.domain, RDFS.range)
@@ -23,19 +23,19 @@ _LINKS = frozenset(
     + (OWL.inverseOf, OWL.sameAs, OWL.differentFrom, OWL.annotatedSource, OWL.annotatedProperty)
     + (OWL.sourceIndividual, OWL.targetIndividual, OWL.assertionProperty)
 )
-"""Relations of OWL itself whose values are entities."""
+"""Properties of OWL itself whose values are entities."""
 _LISTS = frozenset(
     (OWL.intersectionOf, OWL.unionOf, OWL.oneOf, OWL.disjointUnionOf, OWL.hasKey)
     + (OWL.propertyChainAxiom, OWL.members, OWL.distinctMembers, OWL.onProperties)
 )
-"""Relations of OWL itself whose values are lists of entities."""
+"""Properties of OWL itself whose values are lists of entities."""
 _FILLERS = frozenset((OWL.hasValue, OWL.someValuesFrom, OWL.allValuesFrom, OWL.onClass))
 _INSIDE_LISTS = frozenset((RDF.first, RDF.rest))
 
 
 @dataclass(frozen=True, slots=True)
 class Link:
-    """A link to nothing: `subject` has `relation` to what no file declares."""
+    """A dangling link: `subject` has `relation` to an entity that no file declares."""
 
     subject: Identifier
     of: str
@@ -50,7 +50,7 @@ class Link:
 
 
 def broken_lists(graph: Graph) -> Iterator[str]:
-    """Lists that are begun and have a part without a member, without an end, or no end at all."""
+    """Lists with a part that has no member or no successor, and lists that are circular."""
     walked = set[Identifier]()
     for subject, relation, items in graph.triples():
         walks = relation in _LISTS and isinstance(items, BNode)
@@ -60,7 +60,7 @@ def broken_lists(graph: Graph) -> Iterator[str]:
 
 
 def _break(graph: Graph, part: Identifier, walked: set[Identifier]) -> str | None:
-    """What is wrong with a list; those that were walked before are not told of again."""
+    """What is wrong with a list; None if nothing is, or if it was checked before."""
     here = set[Identifier]()
     while part != RDF.nil and part not in walked:
         here.add(part)
@@ -75,11 +75,11 @@ def _break(graph: Graph, part: Identifier, walked: set[Identifier]) -> str | Non
 
 
 def dangling(graph: Graph, *, strict: bool) -> Iterator[Link]:
-    """Every link to nothing.
+    """Every dangling link.
 
     Args:
-        graph: what the loaded files say.
-        strict: whether names of namespaces in which nothing is declared are links to nothing, too.
+        graph: the triples of the loaded files.
+        strict: whether this includes names in namespaces in which nothing is declared.
     """
     declared = [
         one for one in graph.subjects() if isinstance(one, URIRef) and graph.is_declared(one)
@@ -110,7 +110,7 @@ def _missing(
     relation: Identifier,
     of: Identifier,
 ) -> Iterator[Identifier]:
-    """Those of the relation and its value that a file has to declare, and none does."""
+    """The relation, its value, or both, if they should be declared by a file but are not."""
     if _is_missing(graph, relation) and _space(relation) in spaces:
         yield relation
     if relation == OWL.annotatedTarget:
@@ -124,7 +124,7 @@ def _missing(
 
 
 def _is_link(graph: Graph, relation: Identifier) -> bool:
-    """Whether its values are entities."""
+    """Whether the values of this relation are entities."""
     return relation in _LINKS or OWL.ObjectProperty in graph.objects(relation, RDF.type)
 
 
@@ -142,7 +142,7 @@ def _owner(
     subject: Identifier,
     relation: Identifier,
 ) -> tuple[Identifier, Identifier]:
-    """Whom a nameless description belongs to, and the relation that a reader would say."""
+    """The named owner of a blank node, and the relation to show in the message."""
     if relation in _FILLERS:
         relation = next(iter(graph.objects(subject, OWL.onProperty)), relation)
     seen = set[Identifier]()

@@ -1,4 +1,4 @@
-"""Things by what they look like: "the yellow bottle", "the red one"."""
+"""Finds things by their appearance: "the yellow bottle", "the red one"."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -10,13 +10,13 @@ from executive.language.phrases import MOST_WORDS, words_of
 from executive.types.home import OtherColor
 
 LONGEST = 20
-"""Words of a description; more of them are none."""
+"""Longer texts are not treated as a description."""
 MOST_TOLD = 6
-"""Things of which one tells that they have another colour: of all things there is none to tell."""
+"""Up to so many things, the message tells that they have another colour."""
 
 
 class Role(Flag):
-    """What words may be in a description."""
+    """The role of a word in a description."""
 
     NAME = auto()
     PRONOUN = auto()
@@ -29,7 +29,7 @@ PROPERTY = Role.COLOR | Role.SHAPE
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """What an object looks like: its colours and shapes as they are understood; colours as said."""
+    """The appearance of an object: colours and shapes in all languages; `said`: colours to say."""
 
     name: str
     colors: tuple[str, ...]
@@ -39,7 +39,7 @@ class Look:
 
 @dataclass(frozen=True, slots=True)
 class Description:
-    """The names, colours and shapes in a description, each run together."""
+    """The names, colours and shapes in a description; each is written as one word."""
 
     names: list[str] = field(default_factory=list)
     colors: list[str] = field(default_factory=list)
@@ -47,9 +47,9 @@ class Description:
 
 
 class Descriptions:
-    """Finds the objects that a description fits.
+    """Finds the objects that match a description.
 
-    Every word counts: a description with one that is neither a name nor a property fits nothing.
+    Every word counts: if one is neither a name nor a property, nothing matches.
     """
 
     def __init__(
@@ -61,8 +61,8 @@ class Descriptions:
         """Index the words.
 
         Args:
-            named: names, run together, and the objects that go by them.
-            looks: what each object looks like.
+            named: names (as one word), with the objects of this name.
+            looks: the appearance of each object.
             pronouns: words that stand for any object.
         """
         self._named = named
@@ -84,12 +84,12 @@ class Descriptions:
                 self._roles[piece] = self._roles.get(piece, Role(0)) | role
 
     def find(self, words: str) -> tuple[str, ...]:
-        """The objects that the words describe, by at least one property."""
+        """The objects that match the words, which must contain a property."""
         description = self._read(words)
         return tuple(self._colored(description)) if description else ()
 
     def other_color(self, words: str) -> OtherColor | None:
-        """What has another colour than the words say, if it is only that for which none fits."""
+        """The objects that would match but for the colour in the words; None if others do."""
         description = self._read(words)
         if not description or not description.colors or any(self._colored(description)):
             return None
@@ -113,7 +113,7 @@ class Descriptions:
                 yield name
 
     def _read(self, words: str) -> Description | None:
-        """None if a word is unknown, if there is no property, or if there are several names."""
+        """Parse a description; None for an unknown word, no property, or several names."""
         pieces = list(self._pieces(words))
         described = Description()
         into = {
@@ -132,7 +132,7 @@ class Descriptions:
         return described
 
     def _pieces(self, words: str) -> Iterator[tuple[str, Role]]:
-        """The longest known pieces from the left, and what each may be; an unknown one ends it."""
+        """The longest known pieces from the left, with their roles; ends after an unknown one."""
         rest, begin = words_of(words), 0
         if len(rest) > LONGEST:
             rest = ()
@@ -145,18 +145,18 @@ class Descriptions:
 
 
 def joined(text: str) -> str:
-    """The stems of a text, run together."""
+    """The stems of a text, joined to one word."""
     return "".join(words_of(text))
 
 
 def _spellings(colors: Iterable[str]) -> set[str]:
-    """The colours, run together, in all their spellings."""
+    """The colours as one word each, in all spellings."""
     known = set(map(joined, colors))
     return known | {also for also, color in OTHER_SPELLINGS.items() if color in known}
 
 
 def _one_of(roles: Role, *, may_name: bool) -> Role | None:
-    """A property, where it may be one, but for a name at the end: the red orange is a fruit."""
+    """The role of a word: a property, if possible; but the orange in "the red orange" is a name."""
     if may_name and Role.NAME in roles:
         return Role.NAME
     for role in (Role.COLOR, Role.SHAPE, Role.PRONOUN, Role.NAME):

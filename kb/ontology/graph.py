@@ -1,4 +1,4 @@
-"""What the files say, as classes and individuals to walk: all of it is text, nothing is run."""
+"""The triples of the files as a graph of classes and individuals; nothing in it is executed."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -13,15 +13,15 @@ from kb.ontology.names import unique
 from kb.ontology.owl import Triple, ending
 
 STANDARDS = "http://www.w3.org/"
-"""Where the names are that nobody has to declare: RDF, RDFS, OWL, XML Schema."""
+"""The namespaces of RDF, RDFS, OWL and XML Schema, whose names need no declaration."""
 LONGEST_NAME = 100
 MOST_STEPS = 500_000
-"""Classes above all classes, counted together: ten thousand things have some 60,000."""
+"""Limit for the sum of superclasses over all classes; ten thousand things have about 60,000."""
 
 
 @dataclass(frozen=True, slots=True)
 class Called:
-    """What an entity is called, by what else, and why some of its names are not used."""
+    """Name and synonyms of an entity, and why some of its names are not used."""
 
     name: str
     synonyms: tuple[str, ...]
@@ -29,7 +29,7 @@ class Called:
 
 
 class Graph:
-    """The triples of all files, in their order."""
+    """The triples of all files, in order."""
 
     def __init__(self, triples: Iterable[Triple]) -> None:
         """Index the triples."""
@@ -52,23 +52,23 @@ class Graph:
     # --- what is said ---
 
     def triples(self) -> Iterator[Triple]:
-        """Everything, subject by subject."""
+        """All triples, subject by subject."""
         for subject, said in self._about.items():
             for relation, values in said.items():
                 for value in values:
                     yield subject, relation, value
 
     def objects(self, subject: Identifier, relation: Identifier) -> Sequence[Identifier]:
-        """What the subject has to the relation."""
+        """The values of a relation of a subject."""
         return tuple(self._about.get(subject, {}).get(relation, ()))
 
     def is_declared(self, entity: Identifier) -> bool:
-        """Whether a file says what it is."""
+        """Whether a file gives its type or a superclass."""
         said = self._about.get(entity, {})
         return RDF.type in said or RDFS.subClassOf in said
 
     def subjects(self) -> Iterator[Identifier]:
-        """Everything that something is said of."""
+        """All subjects of triples."""
         return iter(self._about)
 
     def members(self, items: Identifier) -> list[Identifier]:
@@ -81,7 +81,7 @@ class Graph:
         return found
 
     def put(self, individual: Identifier, relation: Identifier, value: Identifier) -> None:
-        """Say this, and nothing else, of an individual."""
+        """Set the only value of a relation of an individual."""
         said = self._about.setdefault(individual, {})
         if relation == RDF.type:
             for kind in said.get(relation, ()):
@@ -91,7 +91,7 @@ class Graph:
         said[relation] = {value: None}
 
     def put_class(self, kind: Identifier, above: Identifier, name: str) -> None:
-        """Say of a new class that it is right below another, and what it is called."""
+        """Add a class with its superclass and its label."""
         said = {RDF.type: OWL.Class, RDFS.subClassOf: above, RDFS.label: Literal(name)}
         self._about[kind] = {relation: {value: None} for relation, value in said.items()}
         self._above[kind] = [above]
@@ -100,14 +100,14 @@ class Graph:
     # --- classes and individuals ---
 
     def is_class(self, entity: Identifier) -> bool:
-        """Whether a file declares it as a class, or puts it below one."""
+        """Whether a file declares it as a class, or gives it a superclass."""
         said = self._about.get(entity, {})
         kinds = said.get(RDF.type, {})
         is_one = OWL.Class in kinds or RDFS.Class in kinds or RDFS.subClassOf in said
         return is_one and isinstance(entity, URIRef)
 
     def individuals(self) -> Iterator[Identifier]:
-        """What has a name, and is an instance of a class."""
+        """All named instances of classes."""
         for entity in self._about:
             if isinstance(entity, URIRef) and not self.is_class(entity):
                 named = OWL.NamedIndividual in self.objects(entity, RDF.type)
@@ -115,14 +115,14 @@ class Graph:
                     yield entity
 
     def types(self, entity: Identifier) -> list[Identifier]:
-        """The classes of an individual, less those of the standards (`owl:NamedIndividual`)."""
+        """The classes of an individual, without those of the standards (`owl:NamedIndividual`)."""
         return [t for t in self.objects(entity, RDF.type) if not t.startswith(STANDARDS)]
 
     def parts(self, kind: Identifier) -> list[Identifier]:
-        """All that a class is said to be at once: classes and restrictions, those of `and` too.
+        """All superclasses and restrictions of a class, including the operands of intersections.
 
-        What it is said to be equivalent to counts where it is a description. Another name for the
-        same class does not: the two would be below one another.
+        An anonymous equivalent class counts as well. A named one does not: the two classes would
+        be below each other.
         """
         same = [k for k in self.objects(kind, OWL.equivalentClass) if isinstance(k, BNode)]
         queue = [*self.objects(kind, RDFS.subClassOf), *same, *self._joined(kind)]
@@ -134,7 +134,7 @@ class Graph:
         return list(found)
 
     def upwards(self, kind: Identifier) -> Iterator[Identifier]:
-        """The class and all classes above it, nearest first, without owl:Thing."""
+        """The class and its superclasses, nearest first, without owl:Thing."""
         level, seen = [kind], set[Identifier]()
         while level:
             new = [c for c in dict.fromkeys(level) if c not in seen]
@@ -143,7 +143,7 @@ class Graph:
             level = [above for c in new for above in self._above.get(c, ())]
 
     def downwards(self, kind: Identifier) -> Iterator[Identifier]:
-        """The class and all classes below it, each once, depth first in the files' order."""
+        """The class and its subclasses, each once, depth first, in the order of the files."""
         stack, seen = [kind], set[Identifier]()
         while stack:
             current = stack.pop()
@@ -153,16 +153,16 @@ class Graph:
                 stack.extend(reversed(self._below.get(current, ())))
 
     def leaves(self, kind: Identifier) -> list[Identifier]:
-        """The classes below this one (or itself) that have none below them, but in a circle."""
+        """The subclasses (or the class itself) without further subclasses, apart from cycles."""
         return [c for c in self.downwards(kind) if self._is_leaf(c)]
 
     def instances(self, kind: Identifier) -> list[Identifier]:
-        """The individuals of the class and of those below it."""
+        """The individuals of the class and its subclasses."""
         found = (one for c in self.downwards(kind) for one in self._of.get(c, ()))
         return list(dict.fromkeys(found))
 
     def values(self, kind: Identifier, relation: Identifier) -> list[Identifier]:
-        """What a class itself has to a relation: by `relation value x`, or said of it directly."""
+        """The values of a relation of a class: from `hasValue` restrictions, or stated directly."""
         restricted = [
             value
             for part in self.parts(kind)
@@ -172,10 +172,10 @@ class Graph:
         return list(dict.fromkeys([*restricted, *self.objects(kind, relation)]))
 
     def expect_bounded(self, roots: Sequence[Identifier]) -> None:
-        """Refuse what cannot be walked in reasonable time.
+        """Refuse an ontology that would take too long to traverse.
 
         Raises:
-            InputError: if the classes below these are too many, one above another.
+            InputError: if the sum of superclasses over all classes below the roots is too large.
         """
         steps = 0
         for below in (kind for root in roots for kind in self.downwards(root)):
@@ -188,17 +188,17 @@ class Graph:
     # --- names ---
 
     def called(self, entity: Identifier) -> Called:
-        """What an entity is called, in English if a file says so, and by what else it is known."""
+        """Name and synonyms of an entity; the name is English if a file has one."""
         if entity not in self._called:
             self._called[entity] = self._find_names(entity)
         return self._called[entity]
 
     def label(self, entity: Identifier) -> str:
-        """What an entity is called: a label, or the end of its IRI."""
+        """Name of an entity: a label, or the last part of its IRI."""
         return self.called(entity).name
 
     def names(self, entity: Identifier) -> tuple[str, ...]:
-        """What an entity is called, and its synonyms."""
+        """Name and synonyms of an entity."""
         called = self.called(entity)
         return (called.name, *called.synonyms)
 
@@ -221,7 +221,7 @@ class Graph:
         return Called(name, tuple(n for n in unique(others) if n != name), tuple(refused))
 
     def _named(self, kind: Identifier) -> list[Identifier]:
-        """The classes right above, as far as a file says what they are."""
+        """The direct superclasses that are declared."""
         return [
             part
             for part in self.parts(kind)
@@ -238,12 +238,12 @@ class Graph:
 
 
 def one_line(text: str) -> str:
-    """The text without what editors put around and into it to lay it out."""
+    """The text on one line, without layout whitespace."""
     return " ".join(text.split())
 
 
 def unusable(name: str) -> str | None:
-    """Why a name or a property cannot be spoken of, as a clause; None if it can."""
+    """Why a name or a property value cannot be used, as a clause; None if it can."""
     if len(name) > LONGEST_NAME:
         return f"is longer than {LONGEST_NAME} characters: give a shorter one"
     if printable(name) != name:

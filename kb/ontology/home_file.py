@@ -1,4 +1,4 @@
-"""What a home adds to the ontology, in RDF/XML, for the log and for other tools."""
+"""Writes what a home adds to the ontology as RDF/XML, for the log and for other tools."""
 
 from collections.abc import Iterable, Mapping
 from xml.etree import ElementTree
@@ -19,17 +19,17 @@ def home_file(
     rooms: Mapping[str, Identifier],
     things: Mapping[str, tuple[Identifier, str]],
 ) -> bytes:
-    """Each room and each piece of furniture once, as an individual of its class; things as classes.
+    """Rooms and furniture as individuals of their classes, each once; things as classes.
 
     Args:
-        namespace: where the individuals are, up to the `#`.
-        is_in: the property that says in which room a piece stands.
-        color: the property that says what colour a thing is.
+        namespace: prefix of the IRIs, up to the `#`.
+        is_in: the property for the room of a piece of furniture.
+        color: the property for the colour of a thing.
         places: the furniture.
         furniture: furniture classes by name.
         rooms: room classes by name.
-        things: by their names, the classes right above the objects that the home declares, and
-            what their colours are called; empty if it gives none.
+        things: for the objects that the home declares, by name: superclass and colour (empty if
+            none is given).
     """
     root = ElementTree.Element(f"{{{RDF}}}RDF")
     _about(ElementTree.SubElement(root, f"{{{OWL}}}Ontology"), namespace.rstrip("#"))

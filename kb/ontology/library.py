@@ -1,4 +1,4 @@
-"""The files of an ontology: which of them count, and what they import."""
+"""The files of an ontology: which of them are used, and what they import."""
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
@@ -11,21 +11,21 @@ from executive.text import printable
 from kb.ontology.owl import OwlFile, ending
 
 KEPT_BESIDE = frozenset(("home.owl", "config.toml", "home.toml", "facts.json"))
-"""Names of what else is kept with a recording."""
+"""Names of other files that are stored with a recording."""
 _VERSION = re.compile(r"[/#][vV]?\d[\w.-]*")
-"""What people write behind an IRI to name a version of it."""
+"""A version at the end of an IRI."""
 LONGEST_IRI = 200
-"""Characters of an IRI that are shown."""
+"""Characters of an IRI in a message."""
 
 
 class Library:
-    """The loaded files; a later one with the IRI of an earlier one takes its place."""
+    """The loaded files; a later file replaces an earlier one with the same IRI."""
 
     def __init__(self, files: Iterable[OwlFile], replaceable: Sequence[str]) -> None:
-        """Choose among the files; those whose names are `replaceable` are replaced silently.
+        """Choose the files; those with `replaceable` names are replaced without a warning.
 
         Raises:
-            InputError: if a file is called like another that is kept with a recording.
+            InputError: if two files, or a file and another one of a recording, have the same name.
         """
         chosen: dict[str, OwlFile] = {}
         self._replaced: list[tuple[str, str]] = []
@@ -43,11 +43,11 @@ class Library:
             names.add(file.path.name)
 
     def contents(self) -> dict[str, bytes]:
-        """The files by name, as they were read."""
+        """The contents of the files, by name."""
         return {file.path.name: file.content for file in self.files}
 
     def unmet_imports(self) -> Iterator[str]:
-        """What files import that was not loaded, a sentence each: nothing is fetched."""
+        """A sentence for each import that is not loaded; nothing is fetched."""
         for file in self.files:
             for iri in file.imports:
                 if not _is_met(iri, self.files):
@@ -58,7 +58,7 @@ class Library:
                     )
 
     def warnings(self, known: set[Identifier]) -> Iterator[str]:
-        """Which files add less than one may think, if these are the entities that are used."""
+        """Files that add less than expected, given the entities that are used."""
         yield from self.unmet_imports()
         for name, earlier in map(_both_printable, self._replaced):
             right = "give them IRIs of their own, if both are to count"
@@ -75,7 +75,7 @@ class Library:
 
 
 def _is_met(imported: str, files: Iterable[OwlFile]) -> bool:
-    """Whether one of the files is what is imported: by its IRI, a version of it, or its name."""
+    """Whether one of the files is the imported one, by its IRI, a version of it, or its name."""
     wanted = imported.rstrip("#/")
     for file in files:
         iri = file.iri.rstrip("#/")

@@ -1,4 +1,4 @@
-"""Colours, shapes and uses that are said in a way of which nothing is made."""
+"""Finds colours, shapes and uses that are stated in a way that has no effect."""
 
 from collections.abc import Iterator
 
@@ -19,9 +19,9 @@ def misuse(graph: Graph, namespace: str, root: Identifier) -> Iterator[str]:
     """Each misuse, with what would be right.
 
     Args:
-        graph: what the loaded files say.
-        namespace: where the properties are.
-        root: the class below which all objects are.
+        graph: the triples of the loaded files.
+        namespace: the IRI prefix of the properties.
+        root: the class of all objects.
     """
     for thing in graph.downwards(root):
         for name in PROPERTIES:

@@ -1,4 +1,4 @@
-"""Names as people write them, brought to one form, so that "The Sugar-Boxes" finds sugar_box."""
+"""Normalizes names as people write them, so that "The Sugar-Boxes" finds sugar_box."""
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -21,16 +21,16 @@ from executive.types.home import Place
 
 SHORTEST_WITH_A_SLIP = 4
 SLIP_LIKENESS = 0.75
-"""One letter in four may be wrong, missing, or swapped with the next."""
+"""One letter in four may be wrong, missing, or swapped with the next one."""
 SHORT = 4
-"""In a word of so many letters two may only be swapped: "hell" and "wall" are no "hall"."""
+"""In words this short, letters may only be swapped: "hell" and "wall" are not "hall"."""
 
 _ENUMERATION = re.compile(r"^\s*(?:\d+\s*[.):]|[-*•])\s*")
 
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """The furniture and rooms that a phrase fits, and its words that fit nothing."""
+    """The furniture and rooms that match a phrase, and its words that match nothing."""
 
     furniture: tuple[str, ...] = ()
     rooms: tuple[str, ...] = ()
@@ -38,17 +38,17 @@ class Reading:
 
 
 class PlaceNames:
-    """Finds the furniture and the rooms of a home in what people and models write.
+    """Finds the furniture and rooms of a home in text by people and models.
 
-    A piece of furniture goes by its name (`cabinet_kitchen`, "kitchen cabinet"), by its name less
-    the room ("cabinet"), and by what its class is called ("cupboard"). The first of these that
-    fits anything counts: "desk" is the desk named so, not every piece of class Desk.
+    A piece of furniture has three kinds of names: its own (`cabinet_kitchen`, "kitchen cabinet"),
+    this without the room ("cabinet"), and the names of its class ("cupboard"). The first kind that
+    matches anything counts: "desk" is the piece of that name, not every piece of class Desk.
     """
 
     def __init__(
         self, places: Sequence[Place], called: Mapping[str, Sequence[str]] | None = None
     ) -> None:
-        """Index the home; `called` says what furniture and room classes are called."""
+        """Index the home; `called` gives the names of furniture and room classes."""
         self._room_of = {place.name: place.room for place in places}
         self._pieces_in: dict[str, list[str]] = {}
         for place in places:
@@ -73,10 +73,10 @@ class PlaceNames:
         }
 
     def find(self, text: str) -> tuple[str, ...]:
-        """All furniture that a text names, in its order; a room stands for its furniture.
+        """All furniture in a text, in its order; for a room, all its furniture.
 
-        Clauses that deny ("not on the desk", "I don't know") name nothing. A slip of the finger
-        ("dinning table") is read as the word that it is near to.
+        Clauses with a negation ("not on the desk", "I don't know") are ignored. A misspelling
+        ("dinning table") is read as the nearest word.
         """
         found: list[str] = []
         for reading in self._readings(text):
@@ -86,33 +86,33 @@ class PlaceNames:
         return unique(found)
 
     def covers(self, text: str) -> bool:
-        """Whether each clause names a place, and has no word that does not belong to its name."""
+        """Whether each clause names a place and contains no other words."""
         readings = list(self._readings(text))
         return bool(readings) and all(
             not reading.unknown and (reading.furniture or reading.rooms) for reading in readings
         )
 
     def exactly(self, name: str) -> Reading:
-        """The one piece of furniture or the one room that all of a name fits, else nothing."""
+        """The only piece of furniture or room that matches all words of the name, else nothing."""
         reading = self._read(place_words(_ENUMERATION.sub("", name)))
         if reading.unknown or len(reading.furniture) + len(reading.rooms) != 1:
             return Reading()
         return reading
 
     def rooms_of(self, furniture: Iterable[str]) -> tuple[str, ...]:
-        """The rooms that these pieces of furniture stand in."""
+        """The rooms of these pieces of furniture."""
         return unique(self._room_of[name] for name in furniture if name in self._room_of)
 
     def _readings(self, text: str) -> Iterator[Reading]:
-        """Of each clause with a word in it that does not deny."""
+        """The reading of each clause that has a word and no negation."""
         for clause in CLAUSE_ENDS.split(text.casefold()):
             if not NEGATION.search(clause) and (words := place_words(clause)):
                 yield self._read(map(self._without_slip, words))
 
     def _read(self, content: Iterable[str]) -> Reading:
-        """The places in the words of one phrase: "in the cupboard of the kitchen".
+        """The places in one phrase: "in the cupboard of the kitchen".
 
-        A room beside furniture narrows it down; a room alone stands for itself.
+        A room together with furniture narrows it down; a room alone stands for itself.
         """
         words = list(content)
         furniture: list[str] = []
@@ -131,7 +131,7 @@ class PlaceNames:
         return Reading(unique(furniture), unique(rooms), tuple(unknown))
 
     def _without_slip(self, word: str) -> str:
-        """The word of a name that this one is a slip of, else the word itself."""
+        """The known word that this one misspells, if it is clear; else the word itself."""
         if word in self._vocabulary or len(word) < SHORTEST_WITH_A_SLIP:
             return word
         nearest = process.extract(
@@ -154,7 +154,7 @@ class PlaceNames:
 
 
 def _orders(place: Place) -> tuple[Words, ...]:
-    """A name; where it says the room, with the room first; and as the robot says it, in full.
+    """All forms of a name: as it is, with the room first, and in full as the robot says it.
 
     As in "kitchen cabinet" and in "desk in the bedroom".
     """
@@ -166,16 +166,16 @@ def _orders(place: Place) -> tuple[Words, ...]:
 
 
 def base_name(place: Place) -> str:
-    """A piece's name as one says it, less its room: `cabinet_kitchen` -> "cabinet"."""
+    """The spoken name of a piece without its room: `cabinet_kitchen` -> "cabinet"."""
     room = {*words_of(place.room), *words_of(spoken(place.room_kind))}
     words = spoken(place.name).split()
     return " ".join([w for w in words if stem(w) not in room] or words)
 
 
 def index_by_words(*tiers: Sequence[tuple[Words, str]]) -> dict[str, tuple[str, ...]]:
-    """Words, run together -> all names that go by them in the first tier that knows them.
+    """Map words, joined to one, to the names that have them, in the first tier that knows them.
 
-    Run together, "bed room" and "sugarbox" find bedroom and sugar_box too.
+    Because they are joined, "bed room" and "sugarbox" find bedroom and sugar_box, too.
     """
     index: dict[str, tuple[str, ...]] = {}
     for tier in tiers:
@@ -188,5 +188,5 @@ def index_by_words(*tiers: Sequence[tuple[Words, str]]) -> dict[str, tuple[str, 
 
 
 def unique(names: Iterable[str]) -> tuple[str, ...]:
-    """The names without repetitions, in their order."""
+    """The names without repetitions, in order."""
     return tuple(dict.fromkeys(names))

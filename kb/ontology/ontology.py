@@ -43,14 +43,14 @@ VOCABULARY = (
     *("Object", "Furniture", "Room", "Person"),
     *("isIn", "hasDefaultLocation", "preferredBy", "preposition"),
 )
-"""Classes and properties that household.owl, or what replaces it, has to declare."""
+"""Classes and properties that household.owl, or its replacement, must declare."""
 ALSO_CALLED = "http://www.w3.org/2004/02/skos/core#altLabel"
 PREFIXES = {
     "household": CLASSES,
     "home": INDIVIDUALS,
     "skos": "http://www.w3.org/2004/02/skos/core#",
 }
-"""Names that a query may use without declaring them."""
+"""Prefixes that a query need not declare."""
 
 PREPOSITIONS = ("in", "on")
 
@@ -59,7 +59,7 @@ class Ontology:
     """Implements `Knowledge` with OWL files and the furniture of one home.
 
     Objects are the leaf classes below `Object`. A default location is a class restriction
-    `hasDefaultLocation value dining_table`; a thing takes them from its nearest class with any.
+    `hasDefaultLocation value dining_table`; a thing inherits those of its nearest class with any.
     """
 
     def __init__(
@@ -72,24 +72,22 @@ class Ontology:
         person: str | None = None,
         home: str = "",
     ) -> None:
-        """Load household.owl, defaults.owl if wanted, then `files`, and put the furniture in.
+        """Load household.owl, defaults.owl if wanted, then `files`; add the furniture.
 
-        A file with the IRI of another ontology, such as one of ours, takes its place.
+        A file with the IRI of an earlier one, such as one of ours, replaces it.
 
         Args:
             places: the furniture of the home.
-            things: the objects that the home declares, each a class below the one it names.
+            things: the objects that the home declares; each becomes a class below the one it names.
             defaults: whether to load defaults.owl.
-            files: a person's own OWL files, or what was read of them, which add to ours or
-                replace them.
-            person: the name of who is at home, as the files have it.
-            home: the file that places and things are of, to be named when one of them is wrong.
+            files: the user's OWL files, as paths or parsed; they add to ours or replace them.
+            person: the name of the person at home, as in the files.
+            home: the home file, for error messages.
 
         Raises:
-            InputError: if a file is no ontology or is called like another; if what replaces
-                household.owl lacks a name that every home needs, a place or a thing is of a class
-                that the ontology does not have, a thing is called like something else, or nobody
-                knows the person.
+            InputError: if a file is not an ontology, or two have the same name; if what replaces
+                household.owl lacks a required name; if a place or a thing has an unknown class;
+                if a thing has the name of something else; or if the person is unknown.
         """
         self._library = _library(defaults, files)
         self._graph = Graph(t for file in self._library.files for t in file.triples)
@@ -97,7 +95,7 @@ class Ontology:
         self._graph.expect_bounded([_class(root) for root in ROOTS])
         self._places = {place.name: place for place in places}
         self._usual_places: dict[str, tuple[str, ...]] = {}
-        """As far as somebody asked."""
+        """A cache."""
         self._order = {name: number for number, name in enumerate(self._places)}
         self._home = HomeAdditions(self._graph, CLASSES, home)
         for place in places:
@@ -117,12 +115,12 @@ class Ontology:
         self._names_by_words = self._index_of_names()
         self._person = self._person_named(person) if person else None
         self.place_names = PlaceNames(self.places(), self._called())
-        """What the furniture and the rooms of the home are called."""
+        """The names of the furniture and the rooms."""
         prepositions = {place.kind: self.preposition(place) for place in self.places()}
         self._places_called = places_called(self.places(), prepositions)
 
     def names(self) -> tuple[str, ...]:
-        """Everything that somebody may call a thing or a place."""
+        """All names of things and places."""
         return self._names
 
     @cached_property
@@ -135,15 +133,15 @@ class Ontology:
     # --- the Knowledge protocol ---
 
     def places(self) -> tuple[Place, ...]:
-        """Every piece of furniture of the home, in the home file's order."""
+        """All furniture of the home, in the order of the home file."""
         return tuple(self._places.values())
 
     def has_place(self, name: str) -> bool:
-        """Whether a piece of furniture of this name is in the home."""
+        """Whether the home has a piece of furniture of this name."""
         return name in self._places
 
     def called(self, name: str) -> Called | None:
-        """How one speaks of an object, a class or a piece of furniture; None if it is unknown."""
+        """How to say an object, a class or a piece of furniture; None if it is unknown."""
         if name in self._places_called:
             return self._places_called[name]
         thing = self._things_by_name.get(name)
@@ -155,26 +153,26 @@ class Ontology:
     def objects_named(self, words: str) -> tuple[str, ...]:
         """The objects that the words may mean: none, one, or several ("fruit", "the red one").
 
-        An object counts before a class, a name before a synonym, and any name before what things
-        look like: "the orange" is the fruit.
+        Objects take precedence over classes, names over synonyms, and any name over appearance:
+        "the orange" is the fruit.
         """
         named = self._objects_by_words.get("".join(words_of(words)), ())
         return named or self._descriptions.find(words)
 
     def other_color(self, words: str) -> OtherColor | None:
-        """What the words would mean if they did not say the colour: "blue mug", and it is red."""
+        """The objects meant if the words are wrong about the colour: "blue mug", and it is red."""
         return self._descriptions.other_color(words)
 
     def objects_for(self, purpose: str) -> tuple[str, ...]:
-        """The objects that are for this: "to drink from", "clean the bathroom with", "nails"."""
+        """The objects for a purpose: "to drink from", "clean the bathroom with", "nails"."""
         return self._uses.serving(purpose)
 
     def nearest_names(self, words: str) -> tuple[str, ...]:
-        """Known names that look most like the words, best first (at most 3)."""
+        """Known names that are most similar to the words, best first (at most 3)."""
         return self._similar.nearest(words)
 
     def near_name(self, words: str) -> str | None:
-        """The one known name that the words are most likely a slip of, if it is clear."""
+        """The known name that the words misspell; None if it is not clear."""
         return self._similar.slip(words)
 
     @cached_property
@@ -183,7 +181,7 @@ class Ontology:
         return SimilarNames((n, graph.label(one)) for one in self._things for n in graph.names(one))
 
     def names_in(self, words: str) -> tuple[str, ...]:
-        """The names of objects and classes that a text has in it, in their order."""
+        """The names of objects and classes in a text, in its order."""
         rest, found = list(words_of(words)), list[str]()
         while rest:
             for length in range(min(MOST_WORDS, len(rest)), 0, -1):
@@ -194,14 +192,14 @@ class Ontology:
         return unique(found)
 
     def usual_places(self, name: str) -> tuple[str, ...]:
-        """Default locations of the object or its nearest class; those in this home only."""
+        """Default locations of the object or its nearest class, within this home."""
         if name not in self._usual_places:
             here = filter(self.has_place, self.among(name))
             self._usual_places[name] = tuple(sorted(here, key=self._order.__getitem__))
         return self._usual_places[name]
 
     def likely_places(self, name: str) -> Mapping[str, float]:
-        """The share of its default locations that each place of this home stands for."""
+        """The share of the default locations that each place of this home represents."""
         named = self._default_locations(name)
         kinds = {ending(p): kind_of(p, self._graph, _class("isIn")) for p in named}
         return standing_for(kinds, self.places(), self._meant_here)
@@ -213,15 +211,15 @@ class Ontology:
         return meant_here(self._library.files, recorded, relation, self._places)
 
     def places_named(self, words: str) -> tuple[str, ...]:
-        """Furniture that the words name, in their order; a room stands for its furniture."""
+        """Furniture that the words name, in their order; for a room, all its furniture."""
         return self.place_names.find(words)
 
     def is_place(self, words: str) -> bool:
-        """Whether they name furniture or rooms, and nothing else: not "Anna in the kitchen"."""
+        """Whether the words name furniture or rooms, and nothing else (no "Anna in the hall")."""
         return self.place_names.covers(words)
 
     def preferred(self, names: Sequence[str]) -> tuple[str, ...]:
-        """Those of the objects that the person at home prefers; none if nobody knows who it is."""
+        """The objects that the person at home prefers; none if that person is not known."""
         return tuple(
             name
             for name in names
@@ -231,20 +229,20 @@ class Ontology:
     # --- more about things ---
 
     def objects(self) -> tuple[str, ...]:
-        """Names of all objects, in the files' order."""
+        """Names of all objects, in the order of the files."""
         return tuple(map(self._graph.label, self._objects))
 
     def classes_of(self, name: str) -> tuple[str, ...]:
-        """What the classes above an object or a class are called, nearest first, less `Object`.
+        """Names of the superclasses of an object or a class, nearest first, without `Object`.
 
         Raises:
-            InputError: if there is no such thing, here and below.
+            InputError: if there is no such object or class (as in the methods below).
         """
         _, *above = self._graph.upwards(self._thing(name))
         return tuple(self._graph.label(c) for c in above if c != _class("Object"))
 
     def class_of(self, name: str) -> str:
-        """What the nearest class of an object is called; empty if it has none, or is unknown."""
+        """Name of the nearest class of an object; empty if it has none, or is unknown."""
         return next(iter(self.classes_of(name)), "") if name in self._object_names else ""
 
     @cached_property
@@ -256,71 +254,71 @@ class Ontology:
         return self._graph.called(self._thing(name)).synonyms
 
     def colors(self, name: str) -> tuple[str, ...]:
-        """The colours of an object or its nearest class, the chief one first, as they are said."""
+        """Colours of an object or its nearest class, main colour first, to be said to a person."""
         return said(self._properties.nearest(self._thing(name), COLOR))
 
     def shapes(self, name: str) -> tuple[str, ...]:
-        """What an object or its nearest class looks like or comes in, as it is said."""
+        """Shapes or packages of an object or its nearest class, to be said to a person."""
         return said(self._properties.nearest(self._thing(name), SHAPE))
 
     def uses(self, name: str) -> tuple[str, ...]:
-        """What an object or a class is for: its own uses first, then those of the classes above."""
+        """Uses of an object or a class: its own first, then those of its superclasses."""
         return said(self._properties.every(self._thing(name), USE))
 
     def among(self, name: str) -> tuple[str, ...]:
-        """Default locations of an object or its nearest class, in this home or not."""
+        """Default locations of an object or its nearest class, whether in this home or not."""
         return tuple(map(ending, self._default_locations(name)))
 
     def recorded_locations(self) -> dict[str, tuple[str, ...]]:
-        """Default locations of each object and class for which a file has some of its own."""
+        """Objects and classes with default locations of their own in a file, and these."""
         recorded = {self._graph.label(thing): self._locations(thing) for thing in self._things}
         return {name: tuple(map(ending, places)) for name, places in recorded.items() if places}
 
     def preferred_by(self, name: str) -> tuple[str, ...]:
-        """The people who prefer an object or a class, of others like it."""
+        """The people who prefer this object or class."""
         return tuple(map(self._graph.label, self._preferring(self._thing(name))))
 
     def preposition(self, place: Place) -> str:
-        """How things are with this piece of furniture: "in" or "on"."""
+        """The preposition of a piece of furniture: "in" or "on"."""
         kinds = self._graph.upwards(self._home.kinds["Furniture"][place.kind])
         given = (str(p) for kind in kinds for p in self._graph.objects(kind, _class("preposition")))
         return next(filter(PREPOSITIONS.__contains__, given), "on")
 
     def files(self) -> Mapping[str, bytes]:
-        """The loaded files by name, and what the home adds to them, to be kept with the log."""
+        """Contents of the loaded files and of the home's additions, by file name, for the log."""
         return {**self._library.contents(), "home.owl": self._home.file()}
 
     def faults(self) -> Iterator[str]:
-        """What is wrong with the knowledge, a sentence each; nothing if it is sound."""
+        """A sentence for each fault of the ontology; none if it is valid."""
         return faults(self._graph, CLASSES, imports_met=not self.unmet_imports())
 
     def home_faults(
         self, places: Sequence[Place], things: Sequence[Thing], home: str
     ) -> Iterator[InputError]:
-        """All for which another home, that of this file, would be refused; nothing is put in."""
+        """The faults of another home (of this file), if it were added; nothing is added."""
         graph = Graph(t for file in self._library.files for t in file.triples)
         return HomeAdditions(graph, CLASSES, home).faults(places, things)
 
     def unused(self) -> Iterator[str]:
-        """What the files say that the robot makes nothing of, a sentence each."""
+        """A sentence for each statement in the files that the robot does not use."""
         return unused(self._graph, CLASSES)
 
     def unmet_imports(self) -> tuple[str, ...]:
-        """What files import that was not loaded, a sentence each: nothing is fetched."""
+        """A sentence for each import that is not loaded; nothing is fetched."""
         return tuple(self._library.unmet_imports())
 
     def warnings(self) -> tuple[str, ...]:
-        """What the files do not give although one may think so, a sentence each."""
+        """A sentence for each file that adds less than expected."""
         graph, roots = self._graph, list(map(_class, ROOTS))
         kinds = {kind for root in roots for kind in graph.downwards(root)}
         individuals = {one for root in roots for one in graph.instances(root)}
         return tuple(self._library.warnings(kinds | individuals))
 
     def query(self, sparql: str) -> Table:
-        """Answer a SELECT in SPARQL.
+        """Answer a SPARQL SELECT query.
 
         Raises:
-            InputError: if it cannot be read, or takes too long.
+            InputError: if it cannot be parsed, or takes too long.
         """
         from kb.ontology.sparql import select  # the engine loads slowly, and missions ask nothing
 
@@ -329,7 +327,7 @@ class Ontology:
     # --- inside ---
 
     def _expect_vocabulary(self) -> None:
-        """Refuse an ontology without the names that this class is about."""
+        """Raise an InputError if a class or property that this class needs is not declared."""
         for iri in (*map(_class, VOCABULARY), URIRef(ALSO_CALLED)):
             if not self._graph.is_declared(iri):
                 right = f"keep {iri} as household.owl has it"
@@ -348,7 +346,7 @@ class Ontology:
         return []
 
     def _locations(self, thing: Identifier) -> list[Identifier]:
-        """The default locations that are said of this thing itself, and that a file declares."""
+        """The declared default locations of this thing itself."""
         usual = self._graph.values(thing, _class("hasDefaultLocation"))
         return [place for place in usual if self._graph.is_declared(place)]
 
@@ -368,7 +366,7 @@ class Ontology:
         raise InputError(where, "the ontology knows nobody of this name", right)
 
     def _index_of_names(self) -> dict[str, tuple[str, ...]]:
-        """Words, run together -> names of the things, also of kinds of things, that have them."""
+        """Map words, joined to one, to the names of the things and classes that have them."""
         label, names = self._graph.label, self._graph.names
         return index_by_words(
             [(words_of(label(thing)), label(thing)) for thing in self._things],
@@ -376,7 +374,7 @@ class Ontology:
         )
 
     def _index_of_objects(self) -> dict[str, tuple[str, ...]]:
-        """Words, run together -> names of the objects that they may mean."""
+        """Map words, joined to one, to the names of the objects that they may mean."""
         graph, known = self._graph, set(self._objects)
         objects = [(graph.called(thing), graph.label(thing)) for thing in self._objects]
         members = [
@@ -393,7 +391,7 @@ class Ontology:
         )
 
     def _describe(self) -> Descriptions:
-        """What the objects look like."""
+        """The appearance of the objects."""
         looks = []
         for thing in self._objects:
             colors = self._properties.nearest(thing, COLOR)
@@ -403,7 +401,7 @@ class Ontology:
         return Descriptions(self._objects_by_words, looks, pronouns)
 
     def _called(self) -> dict[str, tuple[str, ...]]:
-        """Furniture or room class -> what it and the classes above it are called."""
+        """Map furniture and room classes to their names and those of their superclasses."""
         graph, roots = self._graph, {_class(root) for root in self._home.kinds}
         return {
             name: tuple(n for c in graph.upwards(kind) if c not in roots for n in graph.names(c))
@@ -413,7 +411,7 @@ class Ontology:
 
 
 def _library(defaults: bool, files: Sequence[Path | OwlFile]) -> Library:
-    """Ours and a person's own files, of which one with the IRI of one of ours takes its place."""
+    """Our files and the user's; a file with the IRI of one of ours replaces it."""
     paths = (HOUSEHOLD, *([DEFAULTS] if defaults else []), *files)
     read_files = (file if isinstance(file, OwlFile) else read(file) for file in paths)
     return Library(read_files, replaceable=(HOUSEHOLD.name, DEFAULTS.name))

@@ -1,7 +1,7 @@
-"""Reading ontologies: what a file says, as triples. Nothing in it is run, opened or fetched.
+"""Reads ontologies: a file as triples. Nothing in it is executed, opened or fetched.
 
-The parsers of rdflib only turn text into triples. The loader of owlready2 is not used, because it
-imports the Python module that an annotation names, and reads what a file imports.
+rdflib's parsers only turn text into triples. owlready2's loader is not used, because it imports
+the Python module named in an annotation, and reads imported files.
 """
 
 import logging
@@ -25,7 +25,7 @@ from kb.ontology.bounds import base_of_bounded
 from kb.ontology.syntax import SAVE, beyond_turtle, is_xml, turtle_text
 
 Triple = tuple[Identifier, Identifier, Identifier]
-"""Subject, predicate, object: an IRI, a blank node or a literal, each a str."""
+"""Subject, predicate, object: each is an IRI, a blank node or a literal, and a str."""
 
 MOST_BYTES = 4 * 2**20
 MOST_TRIPLES = 100_000
@@ -36,13 +36,13 @@ OWLREADY = "http://www.lesfleursdunormal.fr/static/_downloads/owlready_ontology.
 _RUNS_PYTHON = URIRef(OWLREADY + "python_module")
 
 logging.getLogger("rdflib").setLevel(logging.CRITICAL)
-"""It warns of odd IRIs and literals by printing them as they are."""
+"""It would print malformed IRIs and literals, unfiltered."""
 rdflib.NORMALIZE_LITERALS = False
-"""Else a short number such as 1e999999999 is written out."""
+"""Otherwise, a short number such as 1e999999999 is written out in full."""
 
 
 class _Markup(str):
-    """A value that is XML or HTML itself, left as it is."""
+    """A value that is XML or HTML itself; not parsed."""
 
 
 for _kind in (RDF.XMLLiteral, RDF.HTML):
@@ -51,9 +51,9 @@ for _kind in (RDF.XMLLiteral, RDF.HTML):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class OwlFile:
-    """A file, the IRI and the versions of the ontology in it, and the IRIs that it imports.
+    """A parsed file: its triples, the IRI and versions of its ontology, and the IRIs it imports.
 
-    What was read once is the same object again, as long as the file says the same.
+    Cached: the same content gives the same object.
     """
 
     path: Path
@@ -65,7 +65,7 @@ class OwlFile:
 
 
 def read(path: Path) -> OwlFile:
-    """Read a file.
+    """Read and parse a file.
 
     Raises:
         InputError: if it cannot be opened or is too large, and as `parsed` does.
@@ -74,10 +74,10 @@ def read(path: Path) -> OwlFile:
 
 
 def parsed(path: Path, content: bytes) -> OwlFile:
-    """What is in a file; one that declares no IRI goes by its xml:base, or its place on the disk.
+    """Parse a file; without a declared IRI, its IRI is its xml:base, or else its path.
 
     Raises:
-        InputError: if it is neither RDF/XML nor Turtle, refers to another file, says too much, or
+        InputError: if it is neither RDF/XML nor Turtle, refers to another file, is too large, or
             names Python code to be run.
     """
     if len(content) > MOST_BYTES:
@@ -112,7 +112,7 @@ def _parsed(path: Path, content: bytes, here: str) -> OwlFile:
 
 
 def ending(entity: str) -> str:
-    """What an IRI ends in: its name for people, fit to be shown. A blank node has none."""
+    """The last part of an IRI, to be shown to people; a blank node has none."""
     if isinstance(entity, BNode):
         return "something nameless"
     last = entity.rstrip("#/").replace("#", "/").rpartition("/")[2]
@@ -120,7 +120,7 @@ def ending(entity: str) -> str:
 
 
 class _Read(rdflib.Graph):
-    """Takes triples from a parser, in the order of the file."""
+    """Collects triples from a parser, in the order of the file."""
 
     def __init__(self, where: str) -> None:
         super().__init__(bind_namespaces="none")
@@ -147,7 +147,7 @@ def _triples(
         raise
     except RecursionError:
         raise InputError(where, "is nested too deep", "give what is inside a name") from None
-    except Exception as error:  # parsers meet what their authors did not think of
+    except Exception as error:  # on malformed input, parsers raise anything
         if isinstance(content, str) and (other := beyond_turtle(content)):
             raise InputError(where, f"is in {other}, which is not read", SAVE) from None
         fault = f"cannot be read as {called}: {_reason(error)}"
@@ -156,7 +156,7 @@ def _triples(
 
 
 def _source(content: bytes | str, here: str) -> InputSource:
-    """What a parser reads; bytes are in the encoding that they say themselves."""
+    """The input of a parser; bytes declare their encoding themselves."""
     source = InputSource()
     source.setPublicId(here)
     if isinstance(content, bytes):
@@ -167,7 +167,7 @@ def _source(content: bytes | str, here: str) -> InputSource:
 
 
 def _reason(error: Exception) -> str:
-    """What a parser says, on one line; rdflib's Turtle parser quotes half of the file."""
+    """A parser's message on one line, without the parts of the file that rdflib quotes."""
     if isinstance(error, IndexError):
         return "it ends too early"
     if "integer string conversion" in str(error):

@@ -1,4 +1,4 @@
-"""What things look like and are for, and how one speaks of them, as far as the files say."""
+"""Properties of things in the ontology: appearance, use, and grammar of their names."""
 
 from collections.abc import Iterable
 
@@ -9,39 +9,39 @@ from kb.ontology.graph import Graph, one_line, unusable
 from kb.ontology.names import unique
 
 COLOR, SHAPE, USE, PRONOUN, NUMBER = PROPERTIES = ("color", "shape", "use", "pronoun", "number")
-"""The ends of their IRIs."""
+"""Last parts of the properties' IRIs."""
 PLURAL = "plural"
-"""As a number: one says "the scissors are"."""
+"""Value of `number`, as in "the scissors are"."""
 SAID = (None, "en")
-"""Languages of what is also said; "en-US" is one that is only understood."""
+"""Languages of values that the robot says; values in others, even "en-US", are only understood."""
 
 
 class Properties:
-    """Colours, shapes and uses of things.
+    """The properties of things.
 
-    An ontology without these properties, as old recordings have it, gives none.
+    An ontology that does not declare them, as in old recordings, has no values.
     """
 
     def __init__(self, graph: Graph, namespace: str) -> None:
-        """`namespace` is where the properties are."""
+        """`namespace` is the IRI prefix of the properties."""
         self._graph = graph
         self._namespace = namespace
 
     def iri(self, name: str) -> URIRef:
-        """Of one of `PROPERTIES`."""
+        """The IRI of one of `PROPERTIES`."""
         return URIRef(self._namespace + name)
 
     def are_declared(self) -> bool:
-        """Whether the ontology knows of colours."""
+        """Whether the ontology declares colours."""
         return self._graph.is_declared(self.iri(COLOR))
 
     def nearest(self, thing: Identifier, name: str) -> tuple[Literal, ...]:
-        """What a thing, or else its nearest class that has any, has of it, in any language."""
+        """Values of a property of a thing or its nearest class with any, in all languages."""
         levels = (self._own(kind, name) for kind in self._graph.upwards(thing))
         return next(filter(None, levels), ())
 
     def every(self, thing: Identifier, name: str) -> tuple[Literal, ...]:
-        """What a thing and all classes above it have of it, in any language."""
+        """Values of a property of a thing and all its superclasses, in all languages."""
         levels = (self._own(kind, name) for kind in self._graph.upwards(thing))
         return tuple(dict.fromkeys(value for level in levels for value in level))
 
@@ -51,11 +51,11 @@ class Properties:
 
 
 def texts(values: Iterable[Literal]) -> tuple[str, ...]:
-    """All that is understood."""
+    """All values as text."""
     return unique(map(one_line, values))
 
 
 def said(values: Iterable[Literal]) -> tuple[str, ...]:
-    """Those that are said: English ones, or all if there are none."""
+    """The values to say: those in English, or all if there are none."""
     every = tuple(values)
     return texts(value for value in every if value.language in SAID) or texts(every)

@@ -1,7 +1,7 @@
-"""Questions to the ontology in SPARQL 1.1, answered by owlready2's own engine.
+"""Answers SPARQL 1.1 queries with owlready2's own engine.
 
-The engine works on an SQLite database in memory that holds the triples and nothing else. It has
-neither `SERVICE` nor `LOAD`, and here it only gets a SELECT to execute: it reads.
+The engine works on an SQLite database in memory that contains only the triples. It has neither
+`SERVICE` nor `LOAD`, and it gets only SELECT queries here: it cannot write.
 """
 
 import time
@@ -23,20 +23,20 @@ from kb.ontology.table import Table
 
 RIGHT = "write for example: SELECT ?x WHERE { ?x rdfs:subClassOf household:Fruit }"
 LONGEST_S = 20.0
-"""What an answer may take."""
+"""Time limit of a query (s)."""
 LONGEST_QUERY = 10_000
 MOST_NUMBER = 2.0**62
-"""SQLite's integers end at twice as much."""
+"""Half of the limit of SQLite's integers."""
 _BOOLEAN = _universal_datatype_2_abbrev[bool]
 _STEPS = 100_000
-"""Of SQLite's machine, between two looks at the clock."""
+"""Instructions of SQLite's virtual machine between two checks of the time limit."""
 
 
 def select(graph: Graph, query: str, prefixes: dict[str, str]) -> Table:
-    """Answer a SELECT; `prefixes` need not be declared in it.
+    """Answer a SELECT query; `prefixes` need not be declared in it.
 
     Raises:
-        InputError: if it is no SELECT that the engine understands, or takes too long.
+        InputError: if it is not a SELECT that the engine can parse, or takes too long.
     """
     if len(query) > LONGEST_QUERY:
         raise InputError("query", f"is longer than {LONGEST_QUERY} characters", RIGHT)
@@ -56,7 +56,7 @@ def select(graph: Graph, query: str, prefixes: dict[str, str]) -> Table:
         rows = tuple(tuple(map(name_of, row)) for row in _rows(prepared))
     except InputError:
         raise
-    except Exception as error:  # the engine raises whatever its parts do
+    except Exception as error:  # the engine may raise anything
         if late():
             right = "ask for less, or add a LIMIT"
             raise InputError("query", f"takes longer than {LONGEST_S:.0f} s", right) from None
@@ -66,7 +66,7 @@ def select(graph: Graph, query: str, prefixes: dict[str, str]) -> Table:
 
 
 def _world(triples: Iterable[Triple]) -> Any:
-    """The triples in a database of owlready2's, whose classes are never made of them."""
+    """The triples in a database of owlready2, without creating Python classes for them."""
     world = owlready2.World()
     put_links, put_values, *_, finish = world.get_ontology(
         "http://robot-executive.org/all.owl#"
@@ -88,7 +88,7 @@ def _key(entity: Identifier) -> str:
 
 
 def _value(literal: Literal) -> tuple[str | int | float, str]:
-    """A literal as the engine keeps it: numbers as such, if SQLite has them; and of what type."""
+    """A literal as the engine stores it (a number if SQLite can store it), and its datatype."""
     text = writable(literal)
     if literal.language:
         return text, f"@{literal.language}"
@@ -101,7 +101,7 @@ def _value(literal: Literal) -> tuple[str | int | float, str]:
 
 
 def _rows(prepared: Any) -> Iterator[Iterator[tuple[Any, Any]]]:
-    """Each row as values with their types; `o` is that of an entity, which is a number."""
+    """Each row as values with their datatypes; "o" marks an entity, stored as a number."""
     for raw in prepared.execute_raw():
         cells = iter(zip(prepared.column_types, raw, strict=False))
         yield ((cell, "o" if kind == "objs" else next(cells)[1]) for kind, cell in cells)

@@ -1,4 +1,4 @@
-"""How one speaks of the furniture and the things that an ontology and a home have names for."""
+"""How to say the names of furniture and things."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -10,14 +10,14 @@ from executive.types.home import Called, Place
 def places_called(
     places: Sequence[Place], prepositions: Mapping[str, str] | None = None
 ) -> dict[str, Called]:
-    """What each piece of furniture is called.
+    """How to say each piece of furniture.
 
-    A name that ends in its room is said less the room, and with the room behind it:
-    `cabinet_kitchen` is "the cabinet in the kitchen". So are names that two rooms share.
+    A name that ends with its room is said without it, followed by the room: `cabinet_kitchen` is
+    "the cabinet in the kitchen". The same holds for names that occur in two rooms.
 
     Args:
         places: the furniture of a home.
-        prepositions: how things are with furniture of each kind.
+        prepositions: the preposition for each class of furniture.
     """
     less_room = {place.name: _less_room(place) for place in places}
     count = Counter(words for words, _ in less_room.values())
@@ -34,14 +34,14 @@ def places_called(
 
 
 def thing_called(label: str, *, plural: bool = False, is_class: bool = False) -> Called:
-    """What a thing is called, by its label: `sugar_box`, "TV remote", "Tennis Ball"."""
+    """How to say a thing, by its label: `sugar_box`, "TV remote", "Tennis Ball"."""
     words = label.split() if " " in label else spoken(label).split()
     plain = " ".join(word.lower() if word.istitle() else word for word in words)
     return Called(plain or label, plural=plural, bare=is_class)
 
 
 def _less_room(place: Place) -> tuple[str, bool]:
-    """The words of its name, less those of its room behind them, and whether there were any."""
+    """The words of a name without the room at its end, and whether there was one."""
     if place.label:
         return place.label, False
     room = {*words_of(place.room), *words_of(spoken(place.room_kind))}

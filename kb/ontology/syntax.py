@@ -1,4 +1,4 @@
-"""Which syntax an ontology is written in, by how it begins: a file's ending may say anything."""
+"""Detects the syntax of an ontology from its beginning; file name endings are not reliable."""
 
 import re
 from codecs import BOM_UTF8, BOM_UTF16_BE, BOM_UTF16_LE
@@ -7,11 +7,11 @@ from executive.errors import InputError
 from executive.text import printable
 
 SAVE = 'save it as RDF/XML or Turtle (in Protégé: File, Save as, "RDF/XML Syntax")'
-"""What is right where a syntax is not read."""
+"""The advice if a syntax is not supported."""
 START = 10_000
-"""Bytes that tell which syntax it is; a comment before the ontology may be as long."""
+"""Bytes used to detect the syntax; a comment before the ontology may be as long."""
 MOST_ESCAPES = 100_000
-"""Backslashes of a Turtle file: rdflib takes quadratic time over those of one text."""
+"""Backslashes in a Turtle file: rdflib takes quadratic time for those in one string."""
 
 _XML = re.compile(r"<(?:\?xml|!|rdf:RDF\b|[A-Za-z_][\w.:-]*(?:\s|/>)|[A-Za-z_][\w.-]*>)")
 """Turtle may begin with `<urn:x>`, which is no element, because nothing says what `urn` is."""
@@ -33,10 +33,10 @@ _TURTLE = re.compile(r"@?(?:prefix|base)\b|<|_:|\[|\(|\w*:\w", re.IGNORECASE)
 
 
 def is_xml(content: bytes, where: str) -> bool:
-    """Whether it is XML; else it is Turtle, of which N-Triples are a part.
+    """Whether the content is XML; else it is Turtle, which includes N-Triples.
 
     Raises:
-        InputError: if it is neither, with what to save it as.
+        InputError: if it is neither; the message says how to save it.
     """
     if content.startswith(_PACKED):
         raise InputError(where, "is compressed", "unpack it, and name the file that was in it")
@@ -55,17 +55,17 @@ def is_xml(content: bytes, where: str) -> bool:
 
 
 def beyond_turtle(text: str) -> str | None:
-    """Which syntax a text is in that begins as Turtle does, and is none."""
+    """The syntax of a text that begins like Turtle but is not; None if it is Turtle."""
     if _BRACES.search(text):
         return "Notation3" if "=>" in text else "TriG"
     return "N-Quads" if _QUADS.search(text) else None
 
 
 def turtle_text(content: bytes, where: str) -> str:
-    """The text of a Turtle file.
+    """Decode a Turtle file.
 
     Raises:
-        InputError: if its bytes are no UTF-8, or most of it is escapes.
+        InputError: if it is not UTF-8, or has too many escapes.
     """
     try:
         text = _decoded(content, "strict")
@@ -86,7 +86,7 @@ def _decoded(content: bytes, errors: str) -> str:
 
 
 def _without_comments(text: str) -> str:
-    """The text from its first line on that is no comment of Turtle's (`# ...`)."""
+    """The text without leading blank and comment lines (`# ...`)."""
     lines = text.lstrip().splitlines()
     while lines and (not lines[0].strip() or lines[0].lstrip().startswith("#")):
         del lines[0]

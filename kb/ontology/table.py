@@ -1,11 +1,11 @@
-"""The answer to a question in SPARQL."""
+"""The result of a SPARQL query."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """An answer: entities are given by what they are called, values as they are."""
+    """A result; entities are given by name, literals by value."""
 
     columns: tuple[str, ...]
     rows: tuple[tuple[str | int | float | bool, ...], ...]

@@ -1,4 +1,4 @@
-"""Objects that a home declares, put below their classes where no file has them."""
+"""Adds the objects that a home declares, unless a file has them already."""
 
 from collections.abc import Iterator
 
@@ -15,18 +15,18 @@ from kb.ontology.validation import ROOTS
 def put_thing(
     graph: Graph, name: str, kind: Identifier, iri: URIRef, namespace: str, where: str
 ) -> bool:
-    """Put an object right below its class; false if a file has it already, by this name.
+    """Add an object below its class; False if a file already has it under this name.
 
     Args:
-        graph: what is known.
-        name: of the object.
+        graph: the ontology.
+        name: name of the object.
         kind: its class, which is below `Object`.
-        iri: what the object becomes.
-        namespace: of our own classes; those without any below are objects.
-        where: what to call it in messages.
+        iri: IRI of the new object.
+        namespace: the IRI prefix of our classes; those without subclasses are objects.
+        where: the location in error messages.
 
     Raises:
-        InputError: if something else is called so, or its class is an object itself.
+        InputError: if something else has the name, or its class is an object itself.
     """
     objects = graph.leaves(URIRef(namespace + ROOTS[0]))
     if not words_of(name) or graph.is_declared(iri):
@@ -48,7 +48,7 @@ def put_thing(
 
 
 def _called(graph: Graph, name: str, namespace: str) -> Iterator[Identifier]:
-    """Every class that has this name, or one that is not kept apart from it."""
+    """Every class with this name, or with one that is the same when joined to one word."""
     words = "".join(words_of(name))
     for root in ROOTS:
         for kind in graph.downwards(URIRef(namespace + root)):

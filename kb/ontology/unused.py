@@ -1,4 +1,4 @@
-"""What an ontology says that the robot makes nothing of."""
+"""Finds statements of an ontology that the robot does not use."""
 
 from collections import Counter
 from collections.abc import Iterator
@@ -11,7 +11,7 @@ from kb.ontology.owl import OWLREADY, ending
 from kb.ontology.properties import PROPERTIES
 
 ROOT = "Object"
-"""The class below which all objects are."""
+"""The class of all objects."""
 MOST_EXAMPLES = 3
 _FILLERS: dict[Identifier, str] = {
     OWL.someValuesFrom: "some",
@@ -35,11 +35,11 @@ _CONSTRUCTS: dict[Identifier, str] = {
 
 
 def unused(graph: Graph, namespace: str) -> Iterator[str]:
-    """What is not used, and what would be, a sentence each.
+    """A sentence for each thing that is not used, with what would be.
 
     Args:
-        graph: what the loaded files say.
-        namespace: where the properties are that the robot uses.
+        graph: the triples of the loaded files.
+        namespace: the IRI prefix of the properties that the robot uses.
     """
     ours = [URIRef(namespace + name) for name in ("hasDefaultLocation", "preferredBy")]
     yield from _restrictions(graph, ours)
@@ -58,7 +58,7 @@ def unused(graph: Graph, namespace: str) -> Iterator[str]:
 
 
 def _restrictions(graph: Graph, ours: list[URIRef]) -> Iterator[str]:
-    """Default locations and favourites that are not given as values."""
+    """Default locations and preferences that are not `hasValue` restrictions."""
     for kind in graph.subjects():
         for part in graph.parts(kind) if isinstance(kind, URIRef) else ():
             for relation in graph.objects(part, OWL.onProperty):
@@ -90,7 +90,7 @@ def _renamed(graph: Graph) -> Iterator[str]:
 
 
 def _nameless(graph: Graph, namespace: str) -> Iterator[str]:
-    """Classes of objects that have no name of their own."""
+    """Anonymous classes of objects."""
     things = set(graph.downwards(URIRef(namespace + ROOT)))
     for subject in graph.subjects():
         above = graph.objects(subject, RDFS.subClassOf) if isinstance(subject, BNode) else ()
@@ -100,7 +100,7 @@ def _nameless(graph: Graph, namespace: str) -> Iterator[str]:
 
 
 def _looks(graph: Graph, namespace: str) -> Iterator[str]:
-    """Colours, shapes and uses of what is no object."""
+    """Colours, shapes and uses of what is not an object."""
     things = set(graph.downwards(URIRef(namespace + ROOT)))
     for subject in graph.subjects():
         for name in PROPERTIES:
@@ -109,7 +109,7 @@ def _looks(graph: Graph, namespace: str) -> Iterator[str]:
 
 
 def _rest(graph: Graph, ours: list[URIRef]) -> str:
-    """How many of which constructs there are besides."""
+    """The numbers of all other constructs."""
     counted, foreign = Counter[str](), Counter[str]()
     for _, relation, of in graph.triples():
         if relation in _CONSTRUCTS:

@@ -1,9 +1,9 @@
-"""What a default location says in a home that it may not have been written for.
+"""What default locations mean in a home for which they may not have been written.
 
-Files are written with a home in mind, and used in others: the paper's survey names eight pieces of
-its own flat. In another home a name stands for its kind of furniture in its kind of room, and a
-piece that happens to bear the name is no better than its like. How far a file means this home is
-counted in the home: it is the share of the furniture it names that is here.
+A file is written for one home and used in others: the paper's survey names eight pieces of its own
+flat. In another home, a name stands for furniture of the same class in a room of the same class,
+and a piece that happens to have the name is no better than others of its kind. How far a file was
+written for this home is measured by the share of its furniture that exists here.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -17,16 +17,16 @@ from kb.ontology.graph import Graph
 from kb.ontology.owl import OwlFile, ending
 
 Kind: TypeAlias = tuple[str, str]
-"""A class of furniture, and of the room that it stands in."""
+"""The class of a piece of furniture, and the class of its room."""
 
 
 def meant_here(
     files: Iterable[OwlFile], recorded: Iterable[str], relation: Identifier, here: Iterable[str]
 ) -> dict[str, float]:
-    """How far each default location means the piece of this home that bears its name, 0 to 1.
+    """How far each default location means the piece of the same name in this home (0 to 1).
 
     Args:
-        files: who says so; where several name it, the one that is nearest to this home counts.
+        files: the files with default locations; if several name one, the best match counts.
         recorded: all default locations that are used.
         relation: `hasDefaultLocation`.
         here: the furniture of this home.
@@ -41,7 +41,7 @@ def meant_here(
 
 
 def kind_of(piece: Identifier, graph: Graph, is_in: Identifier) -> Kind | None:
-    """What a file says of a piece of furniture: its class and that of its room."""
+    """The class of a piece of furniture and of its room, if a file states both."""
     rooms = graph.objects(piece, is_in)
     kinds = (graph.objects(one, RDF.type) for one in (piece, *rooms[:1]))
     said = [next((ending(k) for k in of if k != OWL.NamedIndividual), "") for of in kinds]
@@ -51,14 +51,14 @@ def kind_of(piece: Identifier, graph: Graph, is_in: Identifier) -> Kind | None:
 def standing_for(
     named: Mapping[str, Kind | None], home: Sequence[Place], meant: Mapping[str, float]
 ) -> dict[str, float]:
-    """The share of the default locations that each piece of this home stands for; at most 1 in all.
+    """The share of the default locations that each piece of this home represents.
 
-    What has neither its name nor its kind here stands for nothing, and is missing from the sum.
+    The shares sum to 1 at most: a location without a piece of its name or kind here is missing.
 
     Args:
-        named: the default locations, and the kind of each if a file says it.
+        named: the default locations, each with its kind if a file states it.
         home: the furniture of this home.
-        meant: how far each of them means the piece of its name.
+        meant: for each location, how far it means the piece of its name (see `meant_here`).
     """
     shares = dict.fromkeys((place.name for place in home), 0.0)
     for name, kind in named.items():

@@ -1,4 +1,4 @@
-"""What may be wrong with an ontology, each fault with what would be right."""
+"""Checks an ontology; each fault is told with what would be right."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from graphlib import CycleError, TopologicalSorter
@@ -16,21 +16,21 @@ from kb.ontology.misuse import misuse
 from kb.ontology.owl import ending
 
 ROOTS = ("Object", "Furniture", "Room", "Person")
-"""The classes below which everything is."""
+"""The classes that everything else must be below."""
 TAKEN = ("hand", "floor", "person", "delivery")
-"""What the robot calls something else: its hand, what it drives on, whom it serves, their table."""
+"""Names that the robot uses itself: its hand, the floor, its user, the delivery table."""
 MOST_OF_A_KIND = 20
-"""Faults of one kind that are told one by one."""
+"""Limit of individually listed faults of one kind."""
 
 
 def faults(graph: Graph, namespace: str, *, imports_met: bool = True) -> Iterator[str]:
-    """What is wrong with the knowledge, a sentence each; nothing if it is sound.
+    """A sentence for each fault of the ontology; none if it is valid.
 
     Args:
-        graph: what the loaded files say.
-        namespace: where the classes of `ROOTS` are.
-        imports_met: whether everything that is imported is loaded; else names of other
-            namespaces may be declared where nobody looked.
+        graph: the triples of the loaded files.
+        namespace: the IRI prefix of the classes in `ROOTS`.
+        imports_met: whether all imports are loaded; if not, names in other namespaces may be
+            declared in files that are missing.
     """
     roots = {name: URIRef(namespace + name) for name in ROOTS}
     links = list(dangling(graph, strict=imports_met))
@@ -60,7 +60,7 @@ def faults(graph: Graph, namespace: str, *, imports_met: bool = True) -> Iterato
 
 
 def _some(told: Iterable[str], of: str) -> Iterator[str]:
-    """The first faults of a kind, and how many more there are."""
+    """The first faults of a kind, and the number of the others."""
     every = iter(told)
     yield from islice(every, MOST_OF_A_KIND)
     if more := sum(1 for _ in every):
@@ -68,13 +68,13 @@ def _some(told: Iterable[str], of: str) -> Iterator[str]:
 
 
 def _all(graph: Graph, root: Identifier) -> Iterator[Identifier]:
-    """The classes below the root, and their individuals."""
+    """The class with its subclasses, and their individuals."""
     yield from graph.downwards(root)
     yield from graph.instances(root)
 
 
 def _of_two_sorts(graph: Graph, roots: dict[str, URIRef]) -> Iterator[str]:
-    """What is an object and a place, or a person, too."""
+    """Objects that are a place or a person, too."""
     sorts = {name: set(graph.downwards(root)) for name, root in roots.items()}
     for kind in sorts["Object"]:
         if others := [name for name in ROOTS[1:] if kind in sorts[name]]:
@@ -82,7 +82,7 @@ def _of_two_sorts(graph: Graph, roots: dict[str, URIRef]) -> Iterator[str]:
 
 
 def _impossible(graph: Graph) -> Iterator[str]:
-    """Classes of which there is nothing: a reasoner writes so what contradicts itself."""
+    """Subclasses of owl:Nothing; a reasoner writes this for contradictory classes."""
     for kind in graph.subjects():
         above = {*graph.objects(kind, RDFS.subClassOf), *graph.objects(kind, OWL.equivalentClass)}
         if OWL.Nothing in above:
@@ -107,7 +107,7 @@ def _cycles(graph: Graph) -> Iterator[str]:
 
 
 def _outsiders(graph: Graph, roots: Sequence[Identifier], told: set[Identifier]) -> Iterator[str]:
-    """What is below no root, less those of whom a fault was told that explains it."""
+    """What is below no root, without those for which another fault explains it."""
     known = {kind for root in roots for kind in graph.downwards(root)}
     for entity in (*filter(graph.is_class, graph.subjects()), *graph.individuals()):
         kinds = [entity] if graph.is_class(entity) else graph.types(entity)
@@ -132,7 +132,7 @@ def _taken(graph: Graph, things: Iterable[Identifier]) -> Iterator[str]:
 
 
 def _ambiguous(graph: Graph, roots: dict[str, URIRef]) -> Iterator[str]:
-    """Names of two classes below one root, or people, and of things that are those of places."""
+    """Names shared by two classes of one root, by two people, or by a thing and a place."""
     of_places: dict[Words, Identifier] = {}
     for root in ("Furniture", "Room"):
         for place in _all(graph, roots[root]):
@@ -177,7 +177,7 @@ def _misplaced(
 
 
 def _wrong(graph: Graph, values: Iterable[Identifier], right: set[Identifier]) -> Iterator[str]:
-    """Values that are not what they ought to be; those that nobody declares are told elsewhere."""
+    """Values of the wrong kind; undeclared ones are reported elsewhere."""
     for value in values:
         declared = graph.is_declared(value) or not isinstance(value, URIRef)
         if declared and value not in right:
@@ -185,7 +185,7 @@ def _wrong(graph: Graph, values: Iterable[Identifier], right: set[Identifier]) -
 
 
 def _individuals(graph: Graph, root: Identifier) -> Iterator[str]:
-    """Individuals of object classes: what the robot can be asked for are classes."""
+    """Individuals of object classes; only classes can be asked for."""
     for one in graph.instances(root):
         kinds = ", ".join(map(ending, graph.types(one)))
         if isinstance(one, BNode):

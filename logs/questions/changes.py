@@ -1,4 +1,4 @@
-"""What is no longer as it was a tick before: parts and tasks that ended, places that were left."""
+"""What has changed since the tick before: tasks and parts that ended, places that were left."""
 
 from collections.abc import Container, Iterator, Mapping
 from typing import Any
@@ -11,7 +11,7 @@ from logs.recording.reader import At
 
 
 def split(before: At[Tick] | None, at: At[Tick]) -> Iterator[Decision]:
-    """That the task at hand is done in parts, and which of them is the first."""
+    """The decision to do the current task in parts, with the first part."""
     was, now = _before_and_now(before, at)
     wholes = now.get("wholes") or []
     if len(wholes) > len(was.get("wholes") or ()) and now.get("command"):
@@ -22,7 +22,7 @@ def split(before: At[Tick] | None, at: At[Tick]) -> Iterator[Decision]:
 def where_to_look(
     before: At[Tick] | None, at: At[Tick], told: Container[str]
 ) -> Iterator[Decision]:
-    """The places that somebody named, unless that was told, or a plan tells it."""
+    """The places that a source named, unless they were told before, or a plan tells them."""
     was, now = _before_and_now(before, at)
     places = now.get("candidates") or ()
     if not places or places == was.get("candidates") or now.get("plan"):
@@ -33,9 +33,9 @@ def where_to_look(
 
 
 def visits(before: At[Tick] | None, at: At[Tick], searches: Container[str]) -> Iterator[Decision]:
-    """Where the thing was looked for, told when the robot is through with the place.
+    """The places where the robot looked for the thing; told when it is done with the place.
 
-    `searches` are the paths of what serves to look for it.
+    `searches` are the paths of the search behaviours.
     """
     was, now = _before_and_now(before, at)
     if before is None or not was.get("candidate"):
@@ -61,7 +61,7 @@ def visits(before: At[Tick] | None, at: At[Tick], searches: Container[str]) -> I
 
 
 def _seen(before: At[Tick], at: At[Tick], place: str) -> str:
-    """What came of a look at a place: for the thing, or all around."""
+    """The result of a look at a place: about the thing, or about everything there."""
     was, now = before.value.situation, at.value.situation
     if why_not := (now.get("unseen") or {}).get(place):
         return f"not all of it seen: {why_not}"
@@ -72,20 +72,20 @@ def _seen(before: At[Tick], at: At[Tick], place: str) -> str:
         there = now["seen"][place]
     elif ended:
         there = ended.get("things") or ()
-    else:  # each thing there is a part of the task now
+    else:  # each thing there has become a part of the task
         parts = (now["command"], *(now.get("tasks") or ()))
         there = [part["target"] for part in parts if part.get("source") == place]
     return f"seen there: {', '.join(there)}" if there else "not seen there"
 
 
 def _is_given_up(before: At[Tick], at: At[Tick]) -> bool:
-    """Whether the task was, for what the person said meanwhile."""
+    """Whether the task was dropped because of what the person said meanwhile."""
     was, now = before.value.situation, at.value.situation
     for task in _ended(before, at):
         return bool(task["reason"] == TAKEN_BACK)
     wholes = now.get("wholes") or []
     if len(wholes) > len(was.get("wholes") or ()) and wholes[-1] == was.get("command"):
-        return False  # it goes on in parts
+        return False  # it is continued in parts
     return now.get("command") != was.get("command") or not now.get("visited")
 
 
@@ -96,14 +96,14 @@ def _before_and_now(
 
 
 def _ended(before: At[Tick] | None, at: At[Tick]) -> list[Mapping[str, Any]]:
-    """What came of the tasks and parts that have ended since."""
+    """The tasks and parts that have ended since the tick before, with their outcomes."""
     was, now = _before_and_now(before, at)
     known = len(was.get("ended") or ())
     return [*_parts(now)[len(_parts(was)) :], *(now.get("ended") or [])[known:]]
 
 
 def _parts(situation: Mapping[str, Any]) -> list[Mapping[str, Any]]:
-    """What came of parts of tasks, in the order in which they ended."""
+    """The outcomes of parts of tasks, in the order of their ends."""
     ended = [part for task in situation.get("ended") or () for part in _within(task)]
     under_way = [part for whole in situation.get("parts") or () for part in whole]
     return [*ended, *(inner for part in under_way for inner in (*_within(part), part))]
@@ -123,7 +123,7 @@ def parts_ended(before: At[Tick] | None, at: At[Tick]) -> Iterator[Decision]:
 
 
 def tasks_ended(before: At[Tick] | None, at: At[Tick]) -> Iterator[Decision]:
-    """How each task ended that has ended since; nothing if there was but one."""
+    """How each task ended that has ended since; nothing if there was only one task."""
     ended = at.value.situation.get("ended") or ()
     if len(ended) < 2 and not is_under_way(at):
         return
@@ -134,7 +134,7 @@ def tasks_ended(before: At[Tick] | None, at: At[Tick]) -> Iterator[Decision]:
 
 
 def _named(task: Mapping[str, Any]) -> str:
-    """A command, or what came of one: "bring 2 fruits from desk", "put mug"."""
+    """A command or its outcome in words: "bring 2 fruits from desk", "put mug"."""
     number = task.get("number") or 0
     source = f"from {task['source']}" if task.get("source") else ""
     goal = f"to {task['goal']}" if task.get("goal") else ""
@@ -147,7 +147,7 @@ def _came_of(task: Mapping[str, Any]) -> str:
 
 
 def is_under_way(at: At[Tick]) -> bool:
-    """Whether the mission did not end with this tick."""
+    """Whether the mission goes on after this tick."""
     return any(node.status == "RUNNING" for node in at.value.nodes)
 
 

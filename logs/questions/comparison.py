@@ -1,4 +1,4 @@
-"""Two recorded missions side by side: how they were set up, where they part, how they ended."""
+"""Compares two recorded missions: their setup, the first difference, and their ends."""
 
 from dataclasses import dataclass
 
@@ -11,15 +11,16 @@ from logs.recording.reader import Run
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """What is not the same about two missions.
+    """The differences between two missions.
 
     Attributes:
         one: name of the first.
         other: name of the second.
         setup: settings and facts of the run that differ.
-        parting: the first tick that differs; None if they were decided alike.
-        decisions: the first decision of each that the other did not make (None: all are shared).
-        ends: how each ended.
+        parting: the first tick that differs; None if all decisions are the same.
+        decisions: for each mission, its first decision that the other does not share; None if
+            there is none.
+        ends: how each mission ended.
     """
 
     one: str
@@ -31,7 +32,7 @@ class Comparison:
 
 
 def compare(one: Run, other: Run) -> Comparison:
-    """Hold two missions side by side."""
+    """Compare two missions."""
     return Comparison(
         one.name,
         other.name,
@@ -70,7 +71,7 @@ def _end(run: Run) -> str:
 
 
 def compare_text(compared: Comparison) -> str:
-    """The comparison in lines; A is the first mission, B the second."""
+    """The comparison as text; A is the first mission, B the second."""
     names = ("A", "B")
     lines = [printable(f"A  {compared.one}"), printable(f"B  {compared.other}")]
     if compared.setup:

@@ -1,4 +1,4 @@
-"""One link of the chain from words to deed: what was settled, by whom, and what was not taken."""
+"""One decision between the words and the deed: what was decided, by whom, and what was rejected."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -6,15 +6,15 @@ from dataclasses import dataclass
 from executive.text import printable
 
 WORLD = "world"
-"""Whose doing an ordered fault is."""
+"""Source of a fault that was injected into the simulation."""
 PERSON, EYES = "person", "eyes"
-"""Who says what was heard, and what was looked at."""
+"""Sources of what was heard and what was seen."""
 NOT_NEEDED = "not needed"
 
 
 @dataclass(frozen=True, slots=True)
 class Alternative:
-    """What could have been instead, and why it was not."""
+    """An alternative, and why it was rejected."""
 
     what: str
     why_not: str
@@ -22,16 +22,16 @@ class Alternative:
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """One link of the chain.
+    """One decision.
 
     Attributes:
-        time_s: mission time at which it was settled.
-        question: what was to be settled, as the tree names it.
-        answer: what came of it.
-        source: as the behaviour declares it: `person`, `ontology`, `llm`, `user`; or `eyes`,
-            `world` or `experimenter`; empty where the tree itself decides.
-        by: the behaviour that settled it.
-        alternatives: what was not taken.
+        time_s: mission time (s).
+        question: what was to be decided, in the words of the tree.
+        answer: the result.
+        source: as declared by the behaviour: `person`, `ontology`, `llm`, `user`; or `eyes`,
+            `world` or `experimenter`; empty if the tree itself decides.
+        by: the behaviour that decided.
+        alternatives: what was rejected.
     """
 
     time_s: float
@@ -43,7 +43,7 @@ class Decision:
 
 
 def why_text(decisions: Iterable[Decision]) -> str:
-    """A paragraph for each decision: what was settled, by whom, and what was not taken."""
+    """A paragraph for each decision: the result, its source, and the rejected alternatives."""
     return "\n".join(map(_text, decisions)) or "nothing was decided: the recording has no ticks"
 
 

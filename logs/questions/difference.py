@@ -1,4 +1,4 @@
-"""Where two missions part: the first tick that is not the same."""
+"""Finds the first tick in which two missions differ."""
 
 import json
 from collections.abc import Collection, Iterable, Iterator, Mapping
@@ -12,19 +12,19 @@ from executive.types.outcome import Outcome
 from logs.recording.reader import At, Run
 
 OF_THE_RUN = ("mission_time_s", "thinking_time_s", "wall_time_s", "run_dir")
-"""What an outcome says about this one run, whatever was decided."""
+"""Fields of an outcome that differ from run to run, even with the same decisions."""
 MEASURED = ("deadlines", "sighting", "doubtful", "unreached", "unplaced", "model_failure", "reason")
-"""What a situation holds of measured times and places: no two runs share them to a digit."""
+"""Fields of a situation with measured times and places, which are never exactly the same."""
 ENDED = "has ended"
 LONGEST_SHOWN = 150
-"""Characters of a value that are shown: a belief names every place of a home."""
+"""Maximum length of a shown value (characters): a belief names every place of a home."""
 
 
 @dataclass(frozen=True, slots=True)
 class Aspect:
-    """One thing that is not the same, and how it is on either side.
+    """One difference, with the value on each side.
 
-    `behaviour`: whether `what` is a behaviour's path.
+    `behaviour`: whether `what` is the path of a behaviour.
     """
 
     what: str
@@ -35,9 +35,9 @@ class Aspect:
 
 @dataclass(frozen=True, slots=True)
 class Parting:
-    """The first tick that differs (None: only the outcomes do), and in what.
+    """The first tick that differs (None: only the outcomes differ), and its differences.
 
-    `time_s` is the mission time on the first side.
+    `time_s` is the mission time of the first mission (s).
     """
 
     tick: int | None
@@ -46,15 +46,15 @@ class Parting:
 
 
 def tick_aspects(one: Tick, other: Tick, *, exact: bool) -> Iterator[Aspect]:
-    """What differs between two ticks.
+    """The differences between two ticks.
 
-    Behaviours and facts that only one side has are passed over, so that a changed tree can be
-    compared with an older recording; so are behaviours that differ because one inside them does.
+    Behaviours and facts on only one side are ignored, so that a changed tree can be compared with
+    an older recording. So are behaviours that differ only because one inside them does.
 
     Args:
         one: a tick.
-        other: the tick of the same number.
-        exact: whether messages and measured values count too, as between a mission and its replay.
+        other: the tick with the same number.
+        exact: whether messages and measured values count, as between a mission and its replay.
     """
     if one.cause != other.cause:
         yield Aspect("cause", one.cause, other.cause)
@@ -77,7 +77,7 @@ def _words(node: NodeState) -> str:
 
 
 def outcome_aspects(one: Outcome, other: Outcome, *, exact: bool) -> Iterator[Aspect]:
-    """What differs between two outcomes, beyond what each run has of its own."""
+    """The differences between two outcomes, apart from `OF_THE_RUN`."""
     left_out = {*OF_THE_RUN, *(() if exact else ("reason", "candidates", "tasks"))}
     names = [one.name for one in fields(Outcome)]
     mine, theirs = ({n: getattr(outcome, n) for n in names} for outcome in (one, other))
@@ -86,7 +86,7 @@ def outcome_aspects(one: Outcome, other: Outcome, *, exact: bool) -> Iterator[As
 
 
 def parting(one: Run, other: Run) -> Parting | None:
-    """Where two recorded missions part; None if they were decided alike."""
+    """The first difference between two recorded missions; None if all decisions are the same."""
     time_s = 0.0
     for a, b in zip_longest(one.ticks(), other.ticks()):
         if a is None or b is None:
@@ -114,7 +114,7 @@ def _longer(a: At[Tick] | None, b: At[Tick] | None) -> Parting:
 def _facts(
     one: Mapping[str, Any], other: Mapping[str, Any], left_out: Collection[str]
 ) -> Iterator[Aspect]:
-    """Values that differ, as JSON would keep them."""
+    """Values that differ, after conversion to JSON."""
     for name, value in one.items():
         if name in left_out or name not in other or value is other[name]:
             continue
@@ -128,7 +128,7 @@ def _plain(value: Any) -> Any:
 
 
 def aspects_text(aspects: Iterable[Aspect], names: tuple[str, str]) -> str:
-    """Three lines for each aspect: what it is, and how it is on either side, or how that begins."""
+    """Three lines for each difference: its name, and the (shortened) value on each side."""
     width = max(len(name) for name in names)
     return "\n".join(
         f"  {printable(aspect.what)}\n"

@@ -1,6 +1,7 @@
-"""Recorded missions as Parquet tables, for pandas, polars or DuckDB.
+"""Exports recorded missions as Parquet tables, for pandas, polars or DuckDB.
 
-Every table has the column `run`; together with `tick` or `time_s` (mission time) rows join.
+Every table has the column `run`; rows can be joined on it with `tick` or `time_s` (mission time,
+s).
 """
 
 import json
@@ -23,25 +24,25 @@ from logs.recording.reader import Run
 Row = report.Row
 
 ROWS = 10_000
-"""That are in memory at a time."""
+"""Rows in memory at a time."""
 
 
 @dataclass(slots=True)
 class Exported:
-    """What came of it."""
+    """The result of an export."""
 
     files: list[Path] = field(default_factory=list)
     unread: list[InputError] = field(default_factory=list)
-    """Why runs are in no table."""
+    """For each run that is in no table, why."""
     early: list[Path] = field(default_factory=list)
-    """Runs that end early, which are in the tables as far as they read."""
+    """Runs that end early; they are in the tables as far as they can be read."""
 
 
 def write_parquet(folders: Iterable[Path], folder: Path) -> Exported:
     """Write `runs`, `ticks`, `behaviours`, `events`, `llm_calls` and `dialog` `.parquet`.
 
-    A table without rows is left out. The tables appear when all are finished. A run that cannot be
-    read costs no other its place in them.
+    A table without rows is omitted. The tables appear when all are complete. An unreadable run
+    does not affect the others.
 
     Raises:
         InputError: if the folder cannot be written.
@@ -82,7 +83,7 @@ def _write(folders: Iterable[Path], folder: Path, exported: Exported) -> list[st
 
 
 def _readable(folder: Path) -> Run:
-    """A run, all of which has been read once: what is damaged must be in no table."""
+    """Open a run and read it once completely, so that no table contains part of a damaged run."""
     run = Run(folder)
     for _ in chain.from_iterable(rows_of(run) for rows_of, _ in TABLES.values()):
         pass
@@ -249,4 +250,4 @@ TABLES: dict[str, tuple[Callable[[Run], Iterable[Row]], Columns]] = {
         _columns(time_s=pa.float64(), speaker=pa.string(), text=pa.string()),
     ),
 }
-"""Name of each table; its rows of one run; its columns beside `run`."""
+"""For each table: its name, a function for the rows of one run, and its columns without `run`."""

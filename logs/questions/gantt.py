@@ -1,4 +1,4 @@
-"""What ran when as a picture: a row for each behaviour, a bar from its start to its end."""
+"""Draws what ran when: a row for each behaviour, a bar from its start to its end."""
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
@@ -9,11 +9,11 @@ from executive.text import printable
 from logs.questions.report import Span
 
 ROW, HEIGHT, MARGIN = 22.0, 14.0, 12.0
-"""Distance of rows, height of a bar, around everything (pixels)."""
+"""Distance between rows, height of a bar, outer margin (px)."""
 WIDTH, LETTER = 900.0, 6.2
-"""Of the time axis; of a letter (pixels)."""
+"""Width of the time axis, and of a letter (px)."""
 LEAST = 2.0
-"""Width of a bar that has no length in time (pixels)."""
+"""Width of a bar without a duration (px)."""
 STEPS_S = (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600)
 MOST_MARKS = 12
 
@@ -33,7 +33,7 @@ line { stroke: #d0d7de }
 def svg(spans: Sequence[Span]) -> str:
     """The spans as an SVG file (W3C SVG 1.1), mission time (s) from left to right.
 
-    Hovering over a bar shows when it was and what the behaviour said.
+    The tooltip of a bar shows its times and the message of the behaviour.
     """
     paths = list(dict.fromkeys(span.path for span in spans))
     rows = {path: row for row, path in enumerate(paths)}
@@ -55,7 +55,7 @@ def svg(spans: Sequence[Span]) -> str:
 
 
 class _Axis:
-    """Mission time (s) to pixels."""
+    """Converts mission time (s) to pixels."""
 
     def __init__(self, left: float, pixels_a_second: float) -> None:
         self._left = left
@@ -66,7 +66,7 @@ class _Axis:
 
 
 def _names(paths: Sequence[str]) -> list[str]:
-    """Last names of the paths; where two are alike, with the one before."""
+    """The last name of each path; if this is ambiguous, with the name before it."""
     last = [path.rpartition("/")[2] for path in paths]
     times = Counter(last)
     return [

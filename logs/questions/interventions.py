@@ -4,7 +4,7 @@ from executive.events import OFF, ON, Deed, Intervened
 from executive.records import Intervention
 
 EXPERIMENTER = "experimenter"
-"""Whose doing it is, where a `Source` stands."""
+"""The source of such a decision, in place of a `Source`."""
 
 HELD = {
     (Deed.HOLD, ON): "what the robot says is held",
@@ -15,7 +15,7 @@ HELD = {
 
 
 def done(deed: Intervention | Intervened) -> str:
-    """What was done, as a clause without who did it."""
+    """What was done, as a clause without a subject."""
     was, became = deed.was, deed.became
     match deed.deed:
         case Deed.ANSWER:

@@ -1,4 +1,4 @@
-"""The camera's pictures as files: singly, or as a video in mission time."""
+"""Exports the camera's pictures: as single files, or as a video in mission time."""
 
 import warnings
 from collections.abc import Iterable, Iterator
@@ -16,11 +16,11 @@ from executive.errors import InputError
 from logs.recording.reader import At
 
 VIDEO_HZ = 10
-"""Pictures a second in a video; between two of the camera's the first one stays."""
+"""Frame rate of a video (Hz); each picture is shown until the next one was taken."""
 
 
 MOST_PIXELS = 64_000_000
-"""Of one picture: a few hundred bytes of JPEG can say that they are a billion."""
+"""Limit for one picture: a JPEG of a few hundred bytes can claim to have a billion pixels."""
 LONGEST_VIDEO_S = 6 * 3600.0
 
 Frames = Iterable[At[bytes]]
@@ -30,7 +30,7 @@ def write_files(frames: Frames, folder: Path, *, png: bool = False) -> list[Path
     """Write each picture to `folder` as `<number>-<mission time>s.jpg`, or as PNG; all or none.
 
     Raises:
-        InputError: if the folder or a file cannot be written, or a picture cannot be read.
+        InputError: if the folder or a file cannot be written, or a picture cannot be decoded.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -46,13 +46,13 @@ def write_files(frames: Frames, folder: Path, *, png: bool = False) -> list[Path
 
 
 def write_video(frames: Frames, file: Path) -> int:
-    """Write an MP4 (MPEG-4) in which a second is a second of the mission; return its pictures.
+    """Write an MP4 (MPEG-4) in mission time; return the number of pictures.
 
     All pictures are shown at the size of the largest.
 
     Args:
-        frames: the pictures, which are gone through twice.
-        file: appears when the video is finished; an existing one is replaced.
+        frames: the pictures; iterated twice.
+        file: created when the video is complete; an existing file is replaced.
 
     Raises:
         InputError: if there are no pictures, they span too long a time, or the file cannot be
@@ -72,7 +72,7 @@ def write_video(frames: Frames, file: Path) -> int:
 
 
 def _show(frames: Frames, video: cv2.VideoWriter, size: tuple[int, int], start_s: float) -> int:
-    """Show each picture until the next one was taken, the last one once."""
+    """Show each picture until the next one was taken; the last one is shown once."""
     shown = 0
     image: NDArray[np.uint8] | None = None
     for at in frames:
@@ -110,10 +110,10 @@ def _image(jpeg: bytes) -> NDArray[np.uint8]:
 
 
 def _size(jpeg: bytes) -> tuple[int, int]:
-    """Width and height of a picture, read before it is decoded.
+    """Width and height of a picture (pixels), read from its header.
 
     Raises:
-        InputError: if it is no JPEG, or too large.
+        InputError: if it is not a JPEG, or too large.
     """
     try:
         with warnings.catch_warnings(action="ignore", category=Image.DecompressionBombWarning):

@@ -1,4 +1,4 @@
-"""What can be said about recorded missions, as plain data and as text."""
+"""Reports about recorded missions, as plain data and as text."""
 
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
@@ -15,15 +15,15 @@ from logs.recording.reader import At, Run
 Row = dict[str, Any]
 
 MESSAGE_LENGTH = 120
-"""Of a behaviour's message, what fits on a line (characters)."""
+"""Maximum length of a behaviour's message on a line (characters)."""
 
 
 @dataclass(slots=True)
 class Span:
-    """One behaviour at work: from the tick that started it to the tick that saw it end.
+    """One run of a behaviour: from the tick that started it to the tick in which it ended.
 
-    `status` is how the last of these ticks left it: RUNNING if the recording ends first, INVALID if
-    it was interrupted, or failed and was reset within the tick because a loop went on.
+    `status` is its status after the last of these ticks: RUNNING if the recording ends first;
+    INVALID if it was interrupted, or if it failed and a loop reset it in the same tick.
     """
 
     start_s: float
@@ -34,7 +34,7 @@ class Span:
 
 
 def summary(run: Run) -> Row:
-    """The outcome, where the time went, and how much there is to see."""
+    """The outcome, the time spent, and the number of ticks, calls and pictures."""
     outcome = run.outcome()
     return {
         "run": run.name,
@@ -49,7 +49,7 @@ def summary(run: Run) -> Row:
 
 
 def time_split(run: Run) -> dict[str, float]:
-    """Mission time (s) that each behaviour was at work, by name, the longest first."""
+    """Mission time (s) that each behaviour was running, by name, longest first."""
     seconds: dict[str, float] = defaultdict(float)
     for span in timeline(run):
         seconds[span.path.rpartition("/")[2]] += span.end_s - span.start_s
@@ -58,7 +58,7 @@ def time_split(run: Run) -> dict[str, float]:
 
 
 def ticks(run: Run) -> list[Row]:
-    """Each tick: the events that caused it, who decided, and which behaviours changed."""
+    """Each tick: the events that caused it, which behaviour decided, and which ones changed."""
     rows: list[Row] = []
     before: dict[str, NodeState] = {}
     for turn in run.turns():
@@ -81,10 +81,10 @@ def _decided(node: NodeState | None) -> str:
 
 
 def timeline(run: Run) -> list[Span]:
-    """When each leaf of the tree was at work, in order of their starts.
+    """When each leaf of the tree was running, in order of the starts.
 
-    What decides within one tick has no length; a leaf that decides the same twice in a row, without
-    being at work in between, counts once.
+    A leaf that decides within one tick has no duration; if it decides the same several times in a
+    row, without running in between, it counts once.
     """
     parents = {node.parent for node in run.tree().nodes}
     leaves = {node.path for node in run.tree().nodes} - parents
@@ -116,7 +116,7 @@ def _statuses(at: At[Tick]) -> dict[str, str]:
 
 
 def llm(run: Run) -> list[Row]:
-    """Every call of the language model, with what the verification made of it."""
+    """Every call of the language model, with the result of the verification."""
     rows: list[Row] = []
     for at in run.thoughts():
         match at.value:
@@ -201,7 +201,7 @@ def _cells(row: Row) -> Row:
 
 
 def table(rows: Sequence[Row]) -> str:
-    """Rows with the same keys under their names; numbers to the right."""
+    """Rows with the same keys as a table with headings; numbers are right-aligned."""
     if not rows:
         return ""
     names = list(rows[0])
@@ -280,7 +280,7 @@ def _call_text(row: Row) -> str:
 
 
 def _paragraph(title: str, text: str) -> list[str]:
-    """The text after its title; its further lines are set in, behind a bar that no text forges."""
+    """A title with its text; further lines are indented behind a bar, which no text can imitate."""
     first, *others = (printable(line) for line in text.replace("\r\n", "\n").split("\n"))
     return [f"  {title:9} {first}", *(f"{'':10}| {line}" for line in others)]
 

@@ -1,6 +1,6 @@
-"""What a recording holds: for each kind of record the topics it is told on, and how it is read.
+"""The content of a recording: for each kind of record, its topics, and how it is read back.
 
-A new kind of record has its entry in `CHANNELS`, and that is all that sink and reader must know.
+To add a kind of record, add its entry to `CHANNELS`; sink and reader need nothing else.
 """
 
 from collections.abc import Callable, Iterable
@@ -75,13 +75,13 @@ class Channel(Generic[R]):
     topic: str
     record: type[R]
     message: Any
-    """Foxglove's class of the messages, or the name of ours."""
+    """Foxglove's class of the messages, or the name of our own message."""
     encode: Callable[[R, Context], Any]
-    """The message of a record; None if there is nothing to say."""
+    """Makes the message of a record; None if there is nothing to write."""
     decode: Callable[[Any], R] | None = None
-    """The record of a message; None where a message does not hold all of it."""
+    """Makes the record of a message; None if the message does not contain the whole record."""
     definitions: Definitions = field(default_factory=dict)
-    """Of our own message and its parts."""
+    """The definitions of our own message and its parts."""
 
 
 def _own(
@@ -94,7 +94,7 @@ def _own(
     *,
     exact: bool = False,
 ) -> Channel[R]:
-    """On a message of our own; `exact`: with its time to the last digit."""
+    """A channel with a message of our own; `exact`: with the exact time."""
 
     def encode(told: R, context: Context) -> Any:
         fields = to_fields(told)
@@ -108,7 +108,7 @@ def _own(
 
 
 def _plain(topic: str, record: type[R], message: str = "") -> Channel[R]:
-    """On a message of our own that has the record's fields, and its name or another."""
+    """A channel with a message whose fields are those of the record."""
     name = message or record.__name__
     definitions = plain.definition(record, name)
     return _own(
@@ -119,12 +119,12 @@ def _plain(topic: str, record: type[R], message: str = "") -> Channel[R]:
 def _foxglove(
     topic: str, record: type[R], message: Any, encode: Callable[[R, int], Any]
 ) -> Channel[R]:
-    """On a message of Foxglove's, for the eye: it is not read back."""
+    """A channel with a message of Foxglove's, for display only: it is not read back."""
     return Channel(topic, record, message, lambda told, context: encode(told, context.ns))
 
 
 def _line(record: type[R], level: str, text: Callable[[R], str]) -> Channel[R]:
-    """As a line in the log, for viewers that do not know our messages."""
+    """A channel that writes a log line, for viewers that do not know our messages."""
 
     def encode(told: R, ns: int) -> Log:
         return foxglove.log_line(Note(level, text(told)), ns)
@@ -133,7 +133,7 @@ def _line(record: type[R], level: str, text: Callable[[R], str]) -> Channel[R]:
 
 
 def _camera_frame(picture: Picture, context: Context) -> FrameTransforms | None:
-    """Where the camera was, unless the robot itself tells it."""
+    """The pose of the camera, unless the robot publishes it itself."""
     if context.camera_frame_published:
         return None
     return foxglove.camera_transform(picture, context.ns)
@@ -171,13 +171,13 @@ CHANNELS: tuple[Channel[Any], ...] = (
     _line(Finished, "info", lambda end: f"{end.outcome.status}: {end.outcome.reason}"),
     _own("/outcome", Finished, "Outcome", OUTCOME, finished_to_fields, finished_from_message),
 )
-"""Every topic with what is on it. A record becomes a message of each of its entries, in order."""
+"""All topics with their contents. A record becomes a message on each of its channels, in order."""
 
 
 def by_kind(
     channels: Iterable[Channel[Any]], kinds: Iterable[type]
 ) -> dict[type, tuple[Channel[Any], ...]]:
-    """The entries of each kind of record.
+    """The channels of each kind of record.
 
     Raises:
         TypeError: if a kind has none.
@@ -193,7 +193,7 @@ def named(pairs: Iterable[tuple[str, T]]) -> dict[str, T]:
     """Messages or topics by name.
 
     Raises:
-        TypeError: if two have one name.
+        TypeError: if two have the same name.
     """
     found: dict[str, T] = {}
     for name, value in pairs:
@@ -205,23 +205,23 @@ def named(pairs: Iterable[tuple[str, T]]) -> dict[str, T]:
 OF_KIND = by_kind(CHANNELS, get_args(Record))
 
 DEFINITIONS = named(pair for channel in CHANNELS for pair in channel.definitions.items())
-"""Of all messages of our own."""
+"""The definitions of all our own messages."""
 
 NUMBERS: Numbers = {
     (message, field): number
     for message, fields in DEFINITIONS.items()
     for number, field in enumerate(fields, start=1)
 }
-"""As they are written today."""
+"""The field numbers that are written today."""
 
 MESSAGES = classes(Default(), DEFINITIONS, NUMBERS)
 """The classes of our own messages by name: `MESSAGES["Tick"](tick=3)`."""
 
 TOPICS = named((c.topic, MESSAGES.get(c.message, c.message)) for c in CHANNELS)
-"""Every topic with the class of its messages; all are declared in every file, used or not."""
+"""Every topic with its message class; every file declares all of them, used or not."""
 
 MOST_IN_A_MESSAGE = 4 * MiB
-"""Of one message of our own (bytes)."""
+"""Maximum size of a message of our own (bytes)."""
 
 
 def is_own(topic: str) -> bool:
@@ -231,15 +231,15 @@ def is_own(topic: str) -> bool:
 
 
 def most_in(topic: str) -> int:
-    """How long a message on it may be (bytes): a longer one is neither written nor read."""
+    """Maximum size of a message on a topic (bytes); a larger one is neither written nor read."""
     return MOST_IN_A_MESSAGE if is_own(topic) else MOST_IN_A_RECORD // 2
 
 
 def decoder(kind: type[R]) -> tuple[str, Callable[[Any], R]]:
-    """The topic from which a kind of record is read back, and how.
+    """The topic and the decoder of a kind of record.
 
     Raises:
-        LookupError: if it is recorded for the eye only.
+        LookupError: if it is recorded for display only.
     """
     for channel in OF_KIND[kind]:
         if channel.decode is not None:

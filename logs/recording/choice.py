@@ -1,4 +1,4 @@
-"""Which recordings are meant by what was named on a command line."""
+"""Finds the recordings that are meant on a command line."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
@@ -11,26 +11,26 @@ SUFFIXES = (".mcap", ".rrd")
 
 
 class Chosen(NamedTuple):
-    """A run's folder or its file, and which one of several it is; empty if there was no choice."""
+    """A run's folder or file, and why it was chosen from several (empty: it was the only one)."""
 
     run: Path
     why: str = ""
 
 
 def runs_in(folders: Iterable[Path]) -> Iterator[Path]:
-    """Runs, and the runs in folders of runs."""
+    """The given runs, and the runs in given folders."""
     for folder in folders:
         inside = sorted(found.parent for found in folder.glob(f"*/{FILE_NAME}"))
         yield from [folder] if (folder / FILE_NAME).exists() or not inside else inside
 
 
 def newest(named: Sequence[Path]) -> Chosen:
-    """The run that was written to last, of those named or in the folders named.
+    """The run that was written last, among the given runs and folders.
 
-    Without a name it is the newest of the folder where `python -m executive` leaves its runs.
+    Without a name, the newest run in the folder where `python -m executive` creates them.
 
     Raises:
-        InputError: if there is none. One that is named alone is taken as it is.
+        InputError: if there is none. A single named run is accepted without a check.
     """
     folders = named or [_folder_of_runs()]
     found = list(runs_in(folders))
@@ -55,6 +55,6 @@ def _is_recording(run: Path) -> bool:
 
 
 def _written(run: Path) -> tuple[float, str]:
-    """When; the names of runs begin with their time, which tells apart those copied together."""
+    """The time and the name; names of runs begin with a time, which orders runs copied together."""
     file = run / FILE_NAME if run.is_dir() else run
     return file.stat().st_mtime, run.name

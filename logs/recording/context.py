@@ -1,4 +1,4 @@
-"""What messages tell beside their record: when it was, and what was recorded before it."""
+"""The context of a record for its messages: its time, and earlier records that matter."""
 
 from dataclasses import dataclass
 from datetime import datetime
@@ -16,23 +16,23 @@ def nanoseconds(time: datetime) -> int:
 
 @dataclass(slots=True)
 class Context:
-    """The moment of the record that is being written, and what of those before it matters.
+    """The time of the record being written, and what matters of the records before it.
 
-    `ns`, run start + mission time as nanoseconds since 1970, is the one time base of a log.
+    `ns` is run start + mission time, as nanoseconds since 1970: the time base of a log.
     """
 
     origin_ns: int
     ns: int = 0
     stamp: Stamp = Stamp(0.0, 0)
     camera_frame_published: bool = False
-    """Whether the robot itself tells where its camera is."""
+    """Whether the robot itself publishes the frame of its camera."""
     _picture: tuple[int, int] = (-1, 0)
 
     def now(self, stamp: Stamp) -> None:
-        """Go on to the next record's moment.
+        """Set the time of the next record.
 
         Raises:
-            ValueError: if no mission has such a time.
+            ValueError: if no mission can have this time.
         """
         ns = self.origin_ns + round(in_mission(stamp.mission_s) * 1e9)
         if not 0 <= ns < 2**63:
@@ -40,12 +40,12 @@ class Context:
         self.ns, self.stamp = ns, stamp
 
     def taken_ns(self, frame_number: int) -> int:
-        """When the picture of this number was taken; now, if it is not the last one."""
+        """When the picture with this number was taken (ns); now, if it is not the last one."""
         number, ns = self._picture
         return ns if number == frame_number else self.ns
 
     def remember(self, record: Record) -> None:
-        """A record was written: later ones may refer to it."""
+        """Note a record that was written, since later ones may refer to it."""
         match record:
             case Picture(frame):
                 self._picture = (frame.number, self.ns)

@@ -1,4 +1,4 @@
-"""Events to the fields of `/event` messages, and back: all that a behaviour may read of them."""
+"""Converts events to the fields of `/event` messages and back, as far as behaviours read them."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -28,11 +28,11 @@ from logs.recording.sound import finite, whole
 T = TypeVar("T")
 
 MOST_PIXELS = 100_000
-"""Along an edge of a picture."""
+"""Along one edge of a picture."""
 
 
 def event_to_fields(taken: EventTaken) -> dict[str, Any]:
-    """`/event`: all that a behaviour may read of it, and its gist in words."""
+    """`/event`: everything that a behaviour may read, and a summary in words."""
     event = taken.event
     return {"name": type(event).__name__, "text": gist(event), **_beside_its_gist(event)}
 
@@ -92,10 +92,10 @@ _RESULTS: dict[type, Callable[[Any], Result]] = {
 
 
 def by_name(read: Mapping[type, Callable[[Any], T]], union: Any) -> dict[str, Callable[[Any], T]]:
-    """How each type of a union is read, by its name, which is how a recording calls it.
+    """A decoder for each type of a union, by its name, which recordings contain.
 
     Raises:
-        TypeError: if one is never read.
+        TypeError: if a type has no decoder.
     """
     if unread := [kind.__name__ for kind in get_args(union) if kind not in read]:
         what = f"{', '.join(unread)} could be recorded, but not be read"
@@ -108,7 +108,7 @@ _RESULT_NAMED = by_name(_RESULTS, Result)
 
 
 def event_from_message(message: Any) -> EventTaken:
-    """The event of an `/event` message; its detections are points without a mask."""
+    """The event of an `/event` message; its detections have points but no mask."""
     if message.name not in _EVENT_NAMED:
         raise ValueError(f"unknown event {message.name!r}")
     return EventTaken(_EVENT_NAMED[message.name](message))
@@ -147,7 +147,7 @@ def _detection(message: Any) -> Detection:
 
 
 def in_words(event: Event) -> str:
-    """An event on one line: its name, that of its result, its gist."""
+    """An event on one line: its name, the name of its result, its summary."""
     result = type(event.result).__name__ if isinstance(event, Ended) else ""
     if isinstance(event, Intervened):
         result = f"{event.by}: {event.deed}:"
@@ -157,7 +157,7 @@ def in_words(event: Event) -> str:
 
 
 def gist(event: Event) -> str:
-    """What is worth reading of an event, beside its name."""
+    """A summary of an event, in addition to its name."""
     match event:
         case Started(words) | Heard(words) | BodyTold(words):
             return words

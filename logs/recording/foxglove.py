@@ -1,4 +1,4 @@
-"""Records as Foxglove's well-known messages: pictures, frames, the scene, log lines."""
+"""Converts records to Foxglove's well-known messages: pictures, frames, scene, log lines."""
 
 from mimetypes import guess_type
 from pathlib import Path
@@ -96,13 +96,13 @@ def image_annotations(seen: Seen, ns: int) -> ImageAnnotations:
 
 
 def camera_transform(picture: Picture, ns: int) -> FrameTransforms:
-    """Where the camera was when it took the picture."""
+    """The pose of the camera in `map` when it took the picture."""
     pose = Transform("map", CAMERA_FRAME, picture.frame.pose)
     return frame_transforms(Transforms((pose,)), ns)
 
 
 def frame_transforms(transforms: Transforms, ns: int) -> FrameTransforms:
-    """Where frames are in their parents."""
+    """The pose of each frame in its parent frame."""
     time = timestamp(ns)
     message = FrameTransforms()
     for t in transforms.transforms:
@@ -122,7 +122,7 @@ def scene_update(scene: Scene, ns: int) -> SceneUpdate:
 
 
 def path_update(path: PlannedPath, ns: int) -> SceneUpdate:
-    """The planned way as a line a little above the floor; no points: the line is taken away."""
+    """The planned path as a line just above the floor; without points, the line is removed."""
     if not path.points:
         return SceneUpdate(deletions=[SceneEntityDeletion(timestamp=timestamp(ns), id=PATH_ID)])
     entity = SceneEntity(timestamp=timestamp(ns), frame_id="map", id=PATH_ID)
@@ -137,7 +137,7 @@ def path_update(path: PlannedPath, ns: int) -> SceneUpdate:
 
 
 def log_line(note: Note, ns: int) -> Log:
-    """A line for the log."""
+    """A log line."""
     return Log(
         timestamp=timestamp(ns),
         level=Log.Level.Value(note.level.upper()),

@@ -1,8 +1,8 @@
-"""The records of an mcap file that a stranger may have made: sizes are checked first.
+"""Reads records of an mcap file that may come from a stranger: sizes are checked first.
 
-The framing is walked here (https://mcap.dev/spec), each record is read by mcap's own classes from
-no more bytes than it has, and a chunk is unpacked to no more than it says and than is allowed. The
-index at the end of a file is never used: it may lie.
+The framing is parsed here (https://mcap.dev/spec). Each record is parsed by mcap's own classes,
+from no more bytes than it has; a chunk is decompressed to no more than its declared and allowed
+size. The index at the end of a file is never used, as it may be wrong.
 """
 
 import struct
@@ -25,45 +25,48 @@ from executive.errors import InputError
 MAGIC = b"\x89MCAP0\r\n"
 MiB = 1024 * 1024
 MOST_IN_A_RECORD = 256 * MiB
-"""Of a record, or of a chunk when it is unpacked (bytes)."""
+"""Maximum size of a record, and of a decompressed chunk (bytes)."""
 MOST_IN_A_FACT = MiB
-"""Of a record that only says something about others: a schema, a channel, metadata."""
+"""Maximum size of a record about others: a schema, a channel, metadata (bytes)."""
 MOST_KEPT = 256 * MiB
-"""Of all attachments together."""
+"""Maximum size of all attachments together (bytes)."""
 MOST_RECORDS = 1_000_000
-"""Of a file, in chunks or not: ten hours of a robot that moves all the time."""
+"""Maximum number of records in a file: ten hours of a robot that moves all the time."""
 MOST_UNPACKED, MOST_PACKED_TIMES = 64 * MiB, 100
-"""A file may unpack to so many bytes and so many times its own size; a mission's, to twice it."""
+"""Limit for a decompressed file: this many bytes, plus this many times its own size.
+
+A mission's file is only twice as large decompressed.
+"""
 
 _HEAD = struct.Struct("<BQ")
 _MESSAGE = struct.Struct("<HIQQ")
 _TOO_MANY = f"there are more than the {MOST_RECORDS} records that are read"
 _FOOTER_BYTES = _HEAD.size + 20
 _BROKEN = (McapError, struct.error, zstandard.ZstdError, RuntimeError, ValueError, OverflowError)
-"""What the readers of a record's inside raise; lz4's is a RuntimeError."""
+"""The exceptions of the record parsers; that of lz4 is a RuntimeError."""
 
 
 @dataclass(frozen=True, slots=True)
 class Damage:
-    """What cannot be read, and why; `cut`: nothing of the file comes after it."""
+    """What cannot be read, and why; `cut`: nothing of the file can be read after it."""
 
     what: str
     cut: bool = False
 
 
 Found = tuple[int, McapRecord | Damage]
-"""The offset (bytes) of a record in the file, or of the chunk that it is in, and the record."""
+"""The offset (bytes) of a record, or of the chunk that contains it, and the record."""
 
 
 class _Unsound(ValueError):
-    """A record is not as it says."""
+    """A record contradicts its own declarations."""
 
 
 def is_whole(path: Path) -> bool:
     """Whether the file was closed: it ends as mcap files do.
 
     Raises:
-        InputError: if it is no mcap file at all, or cannot be read.
+        InputError: if it is not an mcap file, or cannot be read.
     """
     try:
         with path.open("rb") as file:
@@ -79,13 +82,13 @@ def is_whole(path: Path) -> bool:
 
 
 def records(path: Path) -> Iterator[Found]:
-    """All records, those in chunks singly, and in their place what cannot be read.
+    """All records, including those in chunks; unreadable ones are replaced by `Damage`.
 
-    After damage that leaves the next record findable it goes on there. Indexes are passed over, as
-    are kinds of records that are not known.
+    After damage, it continues if the next record can be found. Indexes and unknown kinds of
+    records are skipped.
 
     Raises:
-        InputError: if it is no mcap file at all, or cannot be read.
+        InputError: if it is not an mcap file, or cannot be read.
     """
     is_whole(path)
     try:
@@ -96,7 +99,7 @@ def records(path: Path) -> Iterator[Found]:
 
 
 class _Walk:
-    """From record to record through one file."""
+    """Iterates over the records of one file."""
 
     def __init__(self, file: IO[bytes], size: int) -> None:
         self._file = file
@@ -134,7 +137,7 @@ class _Walk:
             offset = end
 
     def _found(self, opcode: int, length: int, end: int) -> Iterator[McapRecord | Damage]:
-        """What a record is or holds; the file stands at its inside."""
+        """The record, or the records in a chunk; the file is positioned at its content."""
         try:
             record = self._record(opcode, length)
             if isinstance(record, Chunk):
@@ -190,7 +193,7 @@ class _Walk:
                 yield _read(opcode, data[start:position])
 
     def _is_blank(self, offset: int) -> bool:
-        """Whether there is nothing but zeros from here on, as a power failure may leave it."""
+        """Whether the rest of the file is only zeros, as after a power failure."""
         self._file.seek(offset)
         blocks = iter(lambda: self._file.read(MiB), b"")
         return not any(block.strip(b"\0") for block in blocks)
@@ -205,7 +208,7 @@ _READ: dict[int, tuple[Callable[[ReadDataStream], McapRecord] | None, str, int]]
     Opcode.CHUNK: (Chunk.read, "a chunk", MOST_IN_A_RECORD),
     Opcode.ATTACHMENT: (Attachment.read, "an attachment", MOST_KEPT),
 }
-"""What is read: how (None: here), what to call it, and how long it may be (bytes)."""
+"""For each opcode: the parser (None: parsed here), a name, and the maximum size (bytes)."""
 
 
 def _read(opcode: int, inside: bytes) -> McapRecord:
@@ -219,7 +222,7 @@ def _read(opcode: int, inside: bytes) -> McapRecord:
 
 
 def _unpacked(chunk: Chunk) -> bytes:
-    """As many bytes as the chunk says that it has, or one more, whatever the packed data say."""
+    """The decompressed data: as many bytes as the chunk declares, at most one more."""
     most = chunk.uncompressed_size + 1
     match chunk.compression:
         case "":
@@ -234,7 +237,7 @@ def _unpacked(chunk: Chunk) -> bytes:
 
 
 def _check_sum(what: str, data: bytes, recorded: int) -> None:
-    """Refuse what is not what was written; 0 means that no checksum was."""
+    """Raise if the checksum is wrong; 0 means that there is none."""
     if recorded and crc32(data) != recorded:
         raise _Unsound(f"the checksum of {what} is wrong")
 

@@ -1,6 +1,6 @@
-"""Records to the fields of the messages in `schema.py`, and messages back: each pair side by side.
+"""Converts records to the fields of the messages in `schema.py` and back, in pairs.
 
-What is read is checked, for a recording may be a stranger's.
+Input is validated, since a recording may come from a stranger.
 """
 
 import json
@@ -51,7 +51,7 @@ def tree_from_message(message: Any) -> TreeShape:
     """The tree of a `/bt/tree` message.
 
     Raises:
-        ValueError: if it is no tree: parents come before their children, and no path comes twice.
+        ValueError: if it is not a tree: parents come before their children, and paths are unique.
     """
     if len(message.behaviours) > MOST_BEHAVIOURS:
         raise ValueError(f"a tree of {len(message.behaviours)} behaviours")
@@ -66,7 +66,7 @@ def tree_from_message(message: Any) -> TreeShape:
 
 
 def _node_from(b: Any) -> NodeShape:
-    """What a recording from before behaviours declared it does not say, their names did."""
+    """In old recordings, behaviours do not declare their meaning; it is taken from their names."""
     node = NodeShape(
         b.own_id, b.parent_id, b.name, b.type, b.class_name, b.source, b.activity, b.stage
     )
@@ -74,7 +74,7 @@ def _node_from(b: Any) -> NodeShape:
 
 
 def tick_to_fields(tick: Tick) -> dict[str, Any]:
-    """`/bt/tick`: each behaviour's status, and what the mission knows as JSON values by name."""
+    """`/bt/tick`: the status of each behaviour, and the mission's facts as JSON values by name."""
     return {
         "tick": tick.number,
         "cause": tick.cause,
@@ -100,8 +100,7 @@ def tick_from_message(message: Any) -> Tick:
     """The tick of a `/bt/tick` message.
 
     Raises:
-        ValueError: if it has too many behaviours, a status that is none, or knows what no mission
-            does.
+        ValueError: if it has too many behaviours, an unknown status, or an impossible situation.
     """
     if len(message.behaviours) > MOST_BEHAVIOURS:
         raise ValueError(f"a tick of {len(message.behaviours)} behaviours")
@@ -127,7 +126,7 @@ def _status(number: int) -> str:
 
 
 def llm_call_to_fields(call: LlmCall) -> dict[str, Any]:
-    """`/llm/call`: what was asked and answered, the parameters, tokens and times."""
+    """`/llm/call`: request and reply, parameters, tokens and times."""
     result, usage = call.result, call.result.usage
     return {
         "label": result.request.label,
@@ -180,7 +179,7 @@ def llm_call_from_message(message: Any) -> LlmCall:
     """The call of a `/llm/call` message.
 
     Raises:
-        ValueError: if it asks nothing, or a figure in it is none.
+        ValueError: if it has no request, or a number in it is not finite.
     """
     read = whole(message.gen_ai_usage_input_tokens)
     usage = Usage(
@@ -223,7 +222,7 @@ def llm_call_from_message(message: Any) -> LlmCall:
 
 
 def _figure(count: float) -> int:
-    """A number of tokens, whatever a server calls one: what is none is recorded as 0."""
+    """A number of tokens; if a server sent something that is not a number, 0."""
     return int(count) if isfinite(count) and 0 <= count <= MOST else 0
 
 

@@ -1,4 +1,4 @@
-"""Messages of older recordings, which number some of their fields otherwise."""
+"""Reads messages of older recordings, some of whose fields have other numbers."""
 
 from functools import lru_cache
 from typing import Any
@@ -11,18 +11,18 @@ from logs.recording.schema import PACKAGE, classes, fresh_pool
 
 @lru_cache(maxsize=64)
 def recorded_class(name: str, definition: bytes) -> Any:
-    """The class that reads a recorded message; of an older recording, other numbers for its fields.
+    """The class for a recorded message, with the field numbers of that recording.
 
-    Of the definition in the file, only the numbers of the fields that we know are taken: names and
-    types are ours, and nothing else of it is built.
+    Only the numbers of known fields are taken from the definition in the file. Names and types are
+    ours, and no class is built from its other content.
 
     Args:
-        name: of the message, as in `MESSAGES`.
-        definition: a serialized FileDescriptorSet, as mcap keeps it.
+        name: name of the message, as in `MESSAGES`.
+        definition: a serialized FileDescriptorSet, as in mcap.
 
     Raises:
-        ValueError: if the definition does not read, or lacks the message.
-        google.protobuf.message.DecodeError: if it is no FileDescriptorSet.
+        ValueError: if the definition is invalid, or does not contain the message.
+        google.protobuf.message.DecodeError: if it is not a FileDescriptorSet.
     """
     numbers = {
         (message.name, field.name): field.number

@@ -1,4 +1,4 @@
-"""The messages of some topics among the records of a file, parsed as the file defines them."""
+"""Selects the messages on some topics of a file, and parses them with the file's definitions."""
 
 from typing import Any
 
@@ -13,7 +13,7 @@ from logs.recording.older import recorded_class
 from logs.recording.sound import in_mission
 
 MOST_READ = 1024 * MiB
-"""Memory that the messages of our own which one question reads may take, by a generous estimate."""
+"""Memory limit for the own messages that one question reads (bytes), generously estimated."""
 MISFITS = (
     DecodeError,
     ValueError,
@@ -23,17 +23,17 @@ MISFITS = (
     ArithmeticError,
     RecursionError,
 )
-"""What turning a message into a record raises where it is not as we write it."""
+"""Exceptions from converting a message to a record if it has another form than ours."""
 _WHY_LENGTH = 200
 
 
 class Parsing:
-    """Finds the messages of some topics among records, and parses them as they were defined."""
+    """Selects the messages on some topics, and parses them with their recorded definitions."""
 
     def __init__(self, topics: tuple[str, ...], origin_ns: int) -> None:
-        """Want these topics; mission time 0 is so many nanoseconds after 1970."""
+        """`topics` are wanted; mission time 0 is `origin_ns` after 1970 (ns)."""
         self.topic = topics[0]
-        """What was read last."""
+        """The topic of the last message."""
         self._topics = topics
         self._origin_ns = origin_ns
         self._room = MOST_READ
@@ -41,10 +41,10 @@ class Parsing:
         self._channels: dict[int, Channel] = {}
 
     def take(self, record: McapRecord) -> tuple[str, float, Any] | None:
-        """Topic, mission time (s) and message, if the record is one that is wanted.
+        """Topic, mission time (s) and message of a record; None if it is not a wanted message.
 
         Raises:
-            Exception: one of `MISFITS`, if the message is not as we write it.
+            Exception: one of `MISFITS`, if the message has another form than ours.
         """
         match record:
             case Schema():
@@ -72,7 +72,7 @@ class Parsing:
         return channel.topic, time_s, parsed
 
     def _class(self, channel: Channel) -> Any:
-        """What the topic's messages are, with the numbers of the fields that the file has."""
+        """The message class of the topic, with the field numbers in the file."""
         kind = TOPICS[channel.topic]
         name = kind.DESCRIPTOR.full_name
         schema = self._schemas.get(channel.schema_id)
@@ -84,13 +84,13 @@ class Parsing:
 
 
 def _estimate(data: bytes, parsed: Any) -> int:
-    """Memory that a message takes as a record (bytes): of its text, its parts, and JSON in it."""
+    """Estimated memory of a message as a record (bytes): its text, its parts, and JSON in it."""
     values = data.count(b",") + data.count(b"[") + data.count(b"{")
     return 256 * (1 + _parts(parsed)) + 2 * len(data) + 100 * values
 
 
 def _parts(message: Any) -> int:
-    """How many things its lists hold, and those of the messages in it."""
+    """The number of items in its lists, including those of nested messages."""
     return sum(
         _parts(value) if isinstance(value, ProtobufMessage) else len(value)
         for _, value in message.ListFields()
@@ -99,7 +99,7 @@ def _parts(message: Any) -> int:
 
 
 def in_few_words(error: Exception) -> str:
-    """What does not fit, in a few words."""
+    """What is wrong, in a few words."""
     if isinstance(error, ValidationError):
         fault = error.errors(include_url=False, include_input=False)[0]
         return f"{'.'.join(map(str, fault['loc']))}: {fault['msg']}"

@@ -1,4 +1,4 @@
-"""Records whose fields are those of their message, name for name and type for type."""
+"""Records and messages with the same fields, of the same names and types."""
 
 from collections.abc import Callable
 from typing import Any, TypeVar, get_type_hints
@@ -21,10 +21,10 @@ _KINDS: dict[Any, str] = {
 
 
 def definition(record: type, name: str) -> Definitions:
-    """The message of a kind of record: text, numbers, yes or no, and tuples of such.
+    """The message definition of a record with text, numbers, booleans, and tuples of these.
 
     Raises:
-        TypeError: if one of its fields is something else.
+        TypeError: if a field has another type.
     """
     fields = get_type_hints(record)
     for field, kind in fields.items():
@@ -35,13 +35,13 @@ def definition(record: type, name: str) -> Definitions:
 
 
 def to_fields(record: type[R]) -> Callable[[R], dict[str, Any]]:
-    """What makes a message's fields of such a record."""
+    """A function that makes the fields of a message from such a record."""
     names = tuple(get_type_hints(record))
     return lambda told: {name: getattr(told, name) for name in names}
 
 
 def from_message(record: type[R]) -> Callable[[Any], R]:
-    """What makes such a record of a message; it raises ValueError where a measure is none."""
+    """A function that makes such a record from a message; ValueError if a number is not finite."""
     names = tuple(get_type_hints(record))
     return lambda message: record(*[_value(getattr(message, name)) for name in names])
 

@@ -1,4 +1,4 @@
-"""A recorded mission, read back as the records it was made of."""
+"""Reads a recorded mission back as records."""
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
@@ -39,7 +39,7 @@ R = TypeVar("R", bound=Record)
 
 @dataclass(frozen=True, slots=True)
 class At(Generic[T]):
-    """Something, and the mission time at which it was recorded (s)."""
+    """A value, and the mission time at which it was recorded (s)."""
 
     time_s: float
     value: T
@@ -47,9 +47,10 @@ class At(Generic[T]):
 
 @dataclass(frozen=True, slots=True)
 class Turn:
-    """One turn of the executive: the events that it took, and the tick that followed.
+    """One cycle of the executive: the events taken, and the tick that followed.
 
-    There is no tick after a stop, and where the recording ends. `time_s` is mission time, exact.
+    After a stop, and at the end of an incomplete recording, there is no tick. `time_s` is the
+    exact mission time (s).
     """
 
     time_s: float
@@ -58,75 +59,75 @@ class Turn:
 
 
 class Run:
-    """One mission's recording; a file that ends early is read as far as it goes."""
+    """The recording of one mission; an incomplete file is read as far as possible."""
 
     def __init__(self, folder: Path) -> None:
-        """Open `mission.mcap` in a run's folder, or an mcap file itself.
+        """Open `mission.mcap` in a run's folder, or an mcap file.
 
         Raises:
-            InputError: if there is none, or it records no mission.
+            InputError: if there is none, or it does not contain a mission.
         """
         self.path = mcap_of(folder)
         named = self.path.parent if self.path.name == FILE_NAME else self.path
         self.name = named.resolve().name
-        """What to call it: its folder's name."""
+        """The name of its folder."""
         self.whole = is_whole(self.path)
         """Whether the recording was closed; False after a crash."""
         self.metadata: dict[str, str] = {}
         """Facts about the run: start, seed, versions, model."""
         self.attachments: dict[str, bytes] = {}
-        """Files kept with it, by name: configuration, home, ontology. No name leads anywhere."""
+        """Attached files by name: configuration, home, ontology. The names contain no paths."""
         self._tree: TreeShape | None = None
         self._outcome: Outcome | None = None
         self._check()
 
     def config(self) -> dict[str, Any]:
-        """The recorded settings, as they were written down; empty if none were.
+        """The recorded settings; empty if there are none.
 
         Raises:
-            InputError: if they are no TOML, or such as no file of ours is.
+            InputError: if they are not TOML, or not settings of ours.
         """
         content = self.attachments.get("config.toml", b"")
         return parse_toml(content, f"{self.path}: its config.toml")
 
     def records(self, *kinds: type[R]) -> Iterator[At[R]]:
-        """Every record of these kinds, in the order in which they were made.
+        """All records of these kinds, in order.
 
         Raises:
-            InputError: at what cannot be read.
-            LookupError: if a kind is recorded for the eye only.
+            InputError: if something cannot be read.
+            LookupError: if a kind is recorded for display only.
         """
         return self._read(dict(map(decoder, kinds)))
 
     def tree(self) -> TreeShape:
-        """The tree's shape; empty if the mission ended before it was recorded."""
+        """The shape of the tree; empty if the mission ended before it was recorded."""
         if self._tree is None:
             shapes = self.records(TreeShape)
             self._tree = next((at.value for at in shapes), TreeShape(()))
         return self._tree
 
     def ticks(self) -> Iterator[At[Tick]]:
-        """Every tick, with all behaviours' states."""
+        """All ticks, with the states of all behaviours."""
         return self.records(Tick)
 
     def llm_calls(self) -> Iterator[At[LlmCall]]:
-        """Every call of the language model."""
+        """All calls of the language model."""
         return self.records(LlmCall)
 
     def verifications(self) -> Iterator[At[Verified]]:
-        """What the verification let through of each reply."""
+        """The results of the verification of each reply."""
         return self.records(Verified)
 
     def dialog(self) -> Iterator[At[Utterance]]:
-        """What was said."""
+        """All utterances."""
         return self.records(Utterance)
 
     def events(self) -> Iterator[At[Event]]:
-        """Every event that the executive took; of what was seen, points without masks."""
+        """All events that the executive took; detections have points but no masks."""
         return (At(at.time_s, at.value.event) for at in self.records(EventTaken))
 
     def turns(self) -> Iterator[Turn]:
-        """Events and ticks as they belong together."""
+        """The events and the tick of each cycle."""
         time_s, events = 0.0, list[Event]()
         (event_topic, _), (tick_topic, tick) = decoder(EventTaken), decoder(Tick)
         decoders: dict[str, Callable[[Any], _Exact | Tick]]
@@ -142,26 +143,26 @@ class Run:
             yield Turn(time_s, tuple(events), None)
 
     def thoughts(self) -> Iterator[At[Tick | LlmCall | Verified]]:
-        """Ticks, calls of the model and verifications, in the order in which they were."""
+        """Ticks, calls of the model and verifications, in order."""
         return self.records(Tick, LlmCall, Verified)
 
     def mishaps(self) -> Iterator[At[Mishap]]:
-        """What went wrong in the simulated world, because it was told to."""
+        """Faults that were injected into the simulated world."""
         return self.records(Mishap)
 
     def frames(self) -> Iterator[At[bytes]]:
-        """Every camera picture, as JPEG."""
+        """All camera pictures, as JPEG."""
         topic = "/camera/image/compressed"
         return self._read({topic: lambda message: bytes(message.data)})
 
     def outcome(self) -> Outcome | None:
-        """How it ended, or None if the recording ends before the mission did."""
+        """The outcome; None if the recording ends before the mission did."""
         if self._outcome is None:
             self._outcome = next((at.value.outcome for at in self.records(Finished)), None)
         return self._outcome
 
     def last_time_s(self) -> float:
-        """Mission time of the last message of all (s)."""
+        """Mission time of the last message (s)."""
         last = self._origin_ns
         for _, record in self._raw("its end"):
             if isinstance(record, Message):
@@ -169,7 +170,7 @@ class Run:
         return (last - self._origin_ns) / 1e9
 
     def _check(self) -> None:
-        """Read the facts at the start of the file; refuse what is no mission."""
+        """Read the facts at the start of the file; raise if it is not a mission."""
         for _, record in self._raw("its start"):
             if isinstance(record, Metadata) and record.name == "run":
                 self.metadata = record.metadata
@@ -191,7 +192,7 @@ class Run:
             raise InputError(str(self.path), what) from error
 
     def _read(self, decoders: Mapping[str, Callable[[Any], T]]) -> Iterator[At[T]]:
-        """What was recorded under these topics, in the order in which it was."""
+        """The records on these topics, in order."""
         parsing = Parsing(tuple(decoders), self._origin_ns)
         for offset, record in self._raw(", ".join(decoders)):
             try:
@@ -206,16 +207,16 @@ class Run:
             yield At(time_s, value)
 
     def _check_tick(self, tick: Tick) -> None:
-        """See that it tells of every behaviour of the tree."""
+        """Check that it has the state of every behaviour."""
         told = {node.path for node in tick.nodes}
         if missing := next((n.path for n in self.tree().nodes if n.path not in told), None):
             raise ValueError(f"a tick that does not tell how {missing!r} is")
 
     def _raw(self, wanted: str) -> Iterator[tuple[int, McapRecord]]:
-        """All records, or those from the start of a file that was never closed to its break.
+        """All records; for a file that was not closed, those up to where it breaks off.
 
         Raises:
-            InputError: at what cannot be read.
+            InputError: if something cannot be read.
         """
         for offset, found in records(self.path):
             if not isinstance(found, Damage):
@@ -251,6 +252,6 @@ def _exact_event(message: Any) -> _Exact:
 
 
 def _is_plain(name: str) -> bool:
-    """Whether an attachment is called as a file in a folder may be."""
+    """Whether an attachment has a plain file name."""
     plain = name == Path(name).name and name not in ("", ".", "..") and printable(name) == name
     return plain and len(name.encode()) <= 255

@@ -1,4 +1,4 @@
-"""Making mcap files that end early or are damaged whole again."""
+"""Repairs mcap files that are incomplete or damaged."""
 
 import os
 import tempfile
@@ -16,22 +16,22 @@ from logs.recording.sink import CHUNK_BYTES
 
 
 def first_damage(path: Path) -> tuple[int, Damage] | None:
-    """The first thing that does not read, and its offset (bytes); None if all does.
+    """The first damage and its offset (bytes); None if everything can be read.
 
     Raises:
-        InputError: if it is no mcap file at all.
+        InputError: if it is not an mcap file.
     """
     found = ((at, record) for at, record in records(path) if isinstance(record, Damage))
     return next(found, None)
 
 
 def recover(path: Path) -> Path:
-    """Write what can be read of a broken file to `<name>.recovered.mcap` beside it.
+    """Write what can be read of a damaged file to `<name>.recovered.mcap` next to it.
 
-    The file is there whole or, if anything goes wrong, not at all; the broken one is left as it is.
+    The new file appears when it is complete, or not at all; the damaged file is not changed.
 
     Raises:
-        InputError: if it is no mcap file at all, nothing of it reads, or there is no room.
+        InputError: if it is not an mcap file, nothing of it can be read, or the disk is full.
     """
     target = path.with_name(f"{path.stem}.recovered.mcap")
     with written(target) as file:
@@ -41,7 +41,7 @@ def recover(path: Path) -> Path:
 
 @contextmanager
 def written(target: Path) -> Iterator[IO[bytes]]:
-    """A file to write, which takes its place and its name when all is written, or is removed.
+    """A temporary file; takes the name of `target` when it is complete, else it is removed.
 
     Raises:
         InputError: if it cannot be written.
@@ -66,7 +66,7 @@ def written(target: Path) -> Iterator[IO[bytes]]:
 
 
 def _umask() -> int:
-    """The mask of new files, which can only be read by setting it."""
+    """The process's mask for new files, which can only be read by setting it."""
     mask = os.umask(0o022)
     os.umask(mask)
     return mask
@@ -85,7 +85,7 @@ def _copy(path: Path, file: IO[bytes]) -> None:
 
 
 class _Copy:
-    """Writes records anew, with what they refer to; what refers to nothing is left out."""
+    """Copies records with what they refer to; records with missing references are skipped."""
 
     def __init__(self, file: IO[bytes], header: Header) -> None:
         self._writer: Any = Writer(file, chunk_size=CHUNK_BYTES)

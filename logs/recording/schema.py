@@ -1,8 +1,8 @@
-"""The mcap messages that no well-known schema covers, and how they become protobuf classes.
+"""Defines the mcap messages without a well-known schema, and makes protobuf classes of them.
 
 Names follow py_trees_ros for the tree (`own_id`, `tip_id`, `is_active`, status 1 to 4), Foxglove
-for time (`timestamp`), and OpenTelemetry's conventions for generative AI, dots as underscores
-(`gen_ai_usage_input_tokens`). `timestamp` is run start + mission time, the log's one time base;
+for time (`timestamp`), and OpenTelemetry's conventions for generative AI, with underscores for dots
+(`gen_ai_usage_input_tokens`). `timestamp` is run start + mission time, the time base of the log;
 `wall_time` is when the record was made.
 """
 
@@ -28,9 +28,9 @@ STAMPED = {
     "timestamp": "google.protobuf.Timestamp",
     "wall_time": "google.protobuf.Timestamp",
 }
-"""What every message on a topic begins with."""
+"""The first fields of every message on a topic."""
 
-# The messages that are on one topic, and their parts.
+# The messages of one topic each, and their parts.
 
 TREE: Definitions = {
     "Behaviour": {
@@ -183,14 +183,14 @@ _SCALARS = {
 _DEPENDENCIES = (timestamp_pb2, KeyValuePair_pb2, Point3_pb2)
 
 _UNUSED = 100_000
-"""Numbers from here on are given to fields that an older recording has not."""
+"""Fields that an older recording does not have get numbers from here on."""
 
 Numbers = Mapping[tuple[str, str], int]
-"""Of fields, by message and name."""
+"""Field numbers, by message and field name."""
 
 
 def _add_field(message: DescriptorProto, name: str, spec: str, number: int) -> None:
-    """Add a field to a message; `spec` reads as in a .proto file, without name and number."""
+    """Add a field to a message; `spec` is as in a .proto file, without name and number."""
     label, _, kind = spec.rpartition(" ")
     field = message.field.add(name=name, number=number)
     field.label = (
@@ -231,10 +231,10 @@ def _describe(definitions: Definitions, numbers: Numbers) -> FileDescriptorProto
 
 
 def classes(pool: DescriptorPool, definitions: Definitions, numbers: Numbers) -> dict[str, Any]:
-    """The messages' classes by name, with these numbers of their fields.
+    """The message classes by name, with these field numbers.
 
     Raises:
-        TypeError: if the pool cannot hold them.
+        TypeError: if the pool does not accept them.
     """
     pool.AddSerializedFile(_describe(definitions, numbers).SerializeToString())
     return {
@@ -244,7 +244,7 @@ def classes(pool: DescriptorPool, definitions: Definitions, numbers: Numbers) ->
 
 
 def fresh_pool() -> DescriptorPool:
-    """A pool of its own, for classes that are not those of today."""
+    """A separate pool, for classes other than today's."""
     pool = DescriptorPool()
     for module in _DEPENDENCIES:
         pool.AddSerializedFile(module.DESCRIPTOR.serialized_pb)

@@ -40,7 +40,7 @@ class McapSink:
         Args:
             path: the file; an existing one is replaced.
             started: wall time at mission time 0 (with time zone).
-            attachments: files to keep with the run, by name: ontology, configuration.
+            attachments: files to store with the run, by name: ontology, configuration.
             metadata: facts about the run: seed, versions, model.
         """
         origin_ns = nanoseconds(started)

@@ -1,4 +1,4 @@
-"""What a recorded value may be: what no mission records is refused where it is read."""
+"""Validates recorded values: what no mission records is refused when it is read."""
 
 import json
 from math import isfinite
@@ -7,15 +7,15 @@ from typing import Any
 from pydantic import BaseModel
 
 MOST = 2**63 - 1
-"""Of anything that is counted: no table holds more."""
+"""Maximum of any count; tables cannot hold more."""
 MOST_DEEP = 64
-"""Levels of a tree, or of a JSON value."""
+"""Maximum depth of a tree or a JSON value."""
 LONGEST_S = 30 * 86_400.0
-"""No mission takes longer: a time beyond it is wrong."""
+"""Maximum duration of a mission (s); a later time is an error."""
 
 
 class _There(BaseModel):
-    """A place, and who says so."""
+    """A place and its source."""
 
     place: str
 
@@ -27,7 +27,7 @@ class _Asked(BaseModel):
 
 
 class _Known(BaseModel):
-    """What readers look for in a situation, if it is there; the rest may be anything."""
+    """The parts of a situation that readers use, if present; the rest may be anything."""
 
     command: _Asked | None = None
     candidates: list[_There] | None = None
@@ -39,19 +39,19 @@ class _Known(BaseModel):
 
 
 def check_situation(situation: dict[str, Any]) -> None:
-    """See that readers find what they look for as it should be.
+    """Check the parts of a situation that readers use.
 
     Raises:
-        ValueError: if not.
+        ValueError: if one is invalid.
     """
     _Known.model_validate(situation)
 
 
 def json_value(text: str) -> Any:
-    """A JSON value that is not nested too deeply for whatever reads it.
+    """Parse a JSON value that is not nested too deeply for its readers.
 
     Raises:
-        ValueError: if it is none.
+        ValueError: if it is invalid, or nested too deeply.
         RecursionError: if it is nested very deeply.
     """
     value = json.loads(text)
@@ -68,10 +68,10 @@ def _in(outer: list[Any] | dict[str, Any]) -> Any:
 
 
 def whole(number: int) -> int:
-    """A number of things, as every table can hold it.
+    """Check a count: it must fit into every table.
 
     Raises:
-        ValueError: if it is none.
+        ValueError: if it does not.
     """
     if not 0 <= number <= MOST:
         raise ValueError(f"{number} is no number of things")
@@ -79,10 +79,10 @@ def whole(number: int) -> int:
 
 
 def finite(number: float) -> float:
-    """A measure of something.
+    """Check a measured value: it must be finite.
 
     Raises:
-        ValueError: if it is none.
+        ValueError: if it is not.
     """
     if not isfinite(number):
         raise ValueError(f"{number} is no measure of anything")
@@ -90,10 +90,10 @@ def finite(number: float) -> float:
 
 
 def in_mission(time_s: float) -> float:
-    """A mission time (s), which must be one.
+    """Check a mission time (s).
 
     Raises:
-        ValueError: if no mission has it.
+        ValueError: if no mission can have it.
     """
     if not isfinite(time_s) or abs(time_s) > LONGEST_S:
         raise ValueError(f"a time of {time_s:.6g} s is none of a mission")

@@ -1,6 +1,7 @@
-"""Recordings from before behaviours declared what they mean: there it is told from their names.
+"""Reads recordings from before behaviours declared their meaning: it is taken from their names.
 
-Nobody else goes by a name, and this table is closed: what is written today declares itself.
+Nothing else relies on names, and this table is complete: whatever is written today declares
+itself.
 """
 
 from dataclasses import replace
@@ -14,7 +15,7 @@ SOURCES = {
     "llm": "RankPlaces RankKinds WriteCommand Inquire Summarize Again AskFurniture AdoptFurniture",
     "user": "AskWhere AskWhichObject AskDoYouMean AskWhereToPut AskToPutDown ConfirmCommand",
 }
-"""Who speaks through which classes."""
+"""The classes of each source."""
 
 ACTIVITIES = {
     Activity.DRIVING: "DriveToCandidate Visit DriveBack DriveToSurface",
@@ -23,17 +24,17 @@ ACTIVITIES = {
     Activity.THINKING: "RankPlaces RankKinds WriteCommand Inquire Summarize Again AskFurniture",
     Activity.ASKING: SOURCES["user"],
 }
-"""What the robot does while a behaviour of one of these classes is running."""
+"""The classes of each activity: what the robot does while one of them is running."""
 
 SEARCHES = ("/go and look", "/another approach")
-"""How the paths of the sequences end in which the robot looks for the thing."""
+"""How the paths end of the sequences that search for the thing."""
 
 STAGE_DEPTH = 2
-"""How many levels below the root the parts of the mission are."""
+"""How many levels below the root the stages of the mission are."""
 
 
 def told_from_names(node: NodeShape) -> NodeShape:
-    """The behaviour with what its class and its path meant when it was recorded."""
+    """The behaviour with the meaning that its class and path had when it was recorded."""
     searches = node.path.endswith(SEARCHES)
     return replace(
         node,
@@ -44,7 +45,7 @@ def told_from_names(node: NodeShape) -> NodeShape:
 
 
 def _rows(table: dict[str, str] | dict[Activity, str]) -> dict[str, str]:
-    """The table the other way round; of a name that is in two rows the first counts."""
+    """The inverse table; if a name is in two rows, the first one counts."""
     return {name: row for row, names in reversed(table.items()) for name in names.split()}
 
 

@@ -1,4 +1,4 @@
-"""How the viewer lays out a mission: the world, the tree, the thoughts, the talk."""
+"""The layout of the viewer: world, tree, reasoning, dialog."""
 
 from collections.abc import Iterable
 
@@ -18,10 +18,10 @@ LOG = "log"
 
 
 class Layout(rrb.Blueprint):
-    """A blueprint that lets go what it is sent by.
+    """A blueprint that releases the stream it was sent with.
 
-    rerun sends a blueprint by a stream of its own, which holds itself: it and its two threads would
-    stay for as long as the process lives.
+    rerun sends a blueprint with a stream of its own, which holds a reference to itself: the stream
+    and its two threads would live as long as the process.
     """
 
     def _log_to_stream(self, stream: rr.RecordingStream) -> None:
@@ -29,16 +29,16 @@ class Layout(rrb.Blueprint):
         self._sent_by = stream
 
     def let_go(self) -> None:
-        """It was sent."""
+        """Release the stream, after sending."""
         self._sent_by.disconnect()
         del self._sent_by
 
 
 def mission_blueprint(entities: Iterable[Entity] = ()) -> Layout:
-    """Left what the robot does and sees, in the middle why, right what is thought and said.
+    """Left: what the robot does and sees; middle: why; right: reasoning and dialog.
 
     Args:
-        entities: the scene, once it is known, for a bird's eye view of all that stands in `map`.
+        entities: the scene, once it is known, for a bird's-eye view of all that is fixed in `map`.
     """
     return Layout(
         rrb.Vertical(

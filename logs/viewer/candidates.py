@@ -1,4 +1,4 @@
-"""In rerun: a ball above each place where the thing may be, their order, and where it was seen."""
+"""In rerun: a ball above each candidate place, the order of the search, and the sighting."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import product
@@ -28,14 +28,14 @@ _RADIUS_M, _ABOVE_M = 0.16, 0.35
 _TARGET_RADIUS_M = 0.10
 _ORDER_COLOR, _ORDER_RADIUS_M = (90, 150, 255), 0.03
 _CORNERS = np.array(list(product((-0.5, 0.5), repeat=3)))
-"""Of a cube of edge 1."""
+"""Corners of a cube with edge 1."""
 
 
 class CandidatesView:
-    """Draws the places of each tick; what did not change is not logged again."""
+    """Draws the places of each tick; logs only what has changed."""
 
     def __init__(self, stream: rr.RecordingStream) -> None:
-        """Draw nothing yet."""
+        """Nothing is drawn yet."""
         self._stream = stream
         self._above: dict[str, Vector3] = {}
         self._shown: Mapping[str, State] = {}
@@ -44,14 +44,14 @@ class CandidatesView:
             stream.log(path, rr.CoordinateFrame("map"), static=True)
 
     def place(self, entities: Iterable[Entity]) -> None:
-        """Take note of where the furniture is: everything that stands in `map`."""
+        """Remember where the furniture is: all entities in `map`."""
         for entity in entities:
             shapes = [shape for shape in entity.shapes if shape.kind != "mesh"]
             if entity.frame_id == "map" and shapes:
                 self._above[entity.name] = _above(shapes)
 
     def plan(self, planned: Planned) -> None:
-        """Log the order in which the robot means to look, as a line from place to place."""
+        """Log the planned order of the search, as a line from place to place."""
         points = [self._above[place] for place in planned.order if place in self._above]
         lines = [points] if len(points) > 1 else []
         drawn = rr.LineStrips3D(lines, colors=_ORDER_COLOR, radii=_ORDER_RADIUS_M)
@@ -74,7 +74,7 @@ class CandidatesView:
 
 
 def _balls(middles: list[Vector3], drawn: Mapping[str, State]) -> rr.Points3D:
-    """Points, those named that the robot is about or that ended the search."""
+    """One point for each candidate; labelled if it is current, or ended the search."""
     named = (State.CURRENT, State.FOUND)
     return rr.Points3D(
         middles,
@@ -86,7 +86,7 @@ def _balls(middles: list[Vector3], drawn: Mapping[str, State]) -> rr.Points3D:
 
 
 def _above(shapes: Sequence[Shape]) -> Vector3:
-    """A point over the middle of shapes that stand in `map`."""
+    """A point above the middle of shapes in `map`."""
     turns = np.stack([matrix_of(shape.pose.orientation) for shape in shapes])
     boxes = _CORNERS * np.array([shape.size for shape in shapes])[:, np.newaxis]
     middles = np.array([shape.pose.position for shape in shapes])[:, np.newaxis]

@@ -1,15 +1,15 @@
-"""Whether a viewer can be shown on this machine."""
+"""Tells whether this machine can show a viewer."""
 
 import os
 import sys
 
 DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET")
-"""Variables of the environment, one of which names a display where Linux has one."""
+"""Environment variables of Linux; one of them names the display if there is one."""
 
 
 def has_display() -> bool:
-    """Whether there is a display, told at once.
+    """Whether there is a display; returns at once.
 
-    The viewer itself needs seconds to find out that there is none, and can be reached before.
+    The viewer itself needs seconds to notice that there is none, and accepts connections before.
     """
     return sys.platform != "linux" or any(map(os.environ.get, DISPLAYS))

@@ -1,4 +1,4 @@
-"""Records that are a line of text in the viewer's log."""
+"""Records that are shown as a line in the viewer's log."""
 
 from executive.records import (
     Intervention,
@@ -13,11 +13,11 @@ from executive.records import (
 Line = Intervention | Mishap | Note | Planned | Recalled | SourceAnswer | WaysTold
 
 _LEVELS = {"debug": "DEBUG", "info": "INFO", "warning": "WARN", "error": "ERROR"}
-"""What rerun calls the level of a note."""
+"""rerun's names for the levels of a note."""
 
 
 def line(record: Line) -> tuple[str, str]:
-    """Its level, as rerun calls it, and its text."""
+    """The level (rerun's name) and the text."""
     match record:
         case Note(level, text):
             return _LEVELS[level], text

@@ -1,4 +1,4 @@
-"""What a person reads in the viewer beside the pictures: the model's calls, and the belief."""
+"""Markdown documents in the viewer: the calls of the model, the belief, the outcome."""
 
 import re
 from collections.abc import Iterable, Mapping
@@ -14,7 +14,7 @@ from executive.types.results import Replied, Scored
 from logs.viewer.states import State, states
 
 _ACTIVE = re.compile(r"[\\`*<|~]|(?<=[!\]])[\[(:]")
-"""What Markdown may make a picture, a link, HTML or a table of: a backslash takes its power."""
+"""Characters that could make a picture, a link, HTML or a table; they get a backslash."""
 DOTS = 10
 GIST_LENGTH = 300
 
@@ -30,7 +30,7 @@ _MARKS = {
 
 
 def llm_call(call: LlmCall, verified: Verified | None = None) -> str:
-    """One call: what was asked, what was answered, and what the verification made of it."""
+    """One call: request, reply, and the result of the verification."""
     result, usage = call.result, call.result.usage
     parts = [
         f"### {plain(result.request.label)}",
@@ -57,10 +57,10 @@ def llm_call(call: LlmCall, verified: Verified | None = None) -> str:
 
 
 def belief(situation: dict[str, Any]) -> str:
-    """Where the thing may be, who says so, and what became of each place.
+    """Where the thing may be, the source of each place, and its state.
 
     Args:
-        situation: the snapshot that each tick carries.
+        situation: the snapshot in each tick.
     """
     heading = f"### Looking for: {plain(situation.get('object') or 'the thing')}\n\n"
     if planned := _planned(situation):
@@ -76,7 +76,7 @@ def belief(situation: dict[str, Any]) -> str:
 
 
 def _planned(situation: Mapping[str, Any]) -> str:
-    """The belief that a plan was made by; empty if there is none."""
+    """The belief behind the plan; empty if there is none."""
     known = situation.get("belief") or {}
     marks = {place: _MARKS[state] for place, state in states(situation).items()}
     rows = [
@@ -115,7 +115,7 @@ def outcome(outcome: Outcome) -> str:
 
 
 def plain(text: object) -> str:
-    """Text from outside on one line, as it reads: no picture is fetched, nothing is drawn by it."""
+    """Text from outside as one line without markup, so that no picture is fetched or drawn."""
     return _ACTIVE.sub(r"\\\g<0>", printable(text))
 
 
@@ -157,7 +157,7 @@ def _quote(text: str) -> str:
 
 
 def _gist(text: str) -> str:
-    """The text on one line, and no more of it than is read at a glance."""
+    """The text on one line, shortened."""
     return plain(shorten(text, GIST_LENGTH, placeholder=" …"))
 
 

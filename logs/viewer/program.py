@@ -1,4 +1,4 @@
-"""The rerun viewer as a program of its own, reachable from this machine only."""
+"""Runs the rerun viewer as a separate program, reachable from this machine only."""
 
 import os
 import signal
@@ -16,17 +16,17 @@ from logs.viewer.timelines import MISSION_TIME
 
 COMMAND = [sys.executable, "-m", "rerun", "--bind", "127.0.0.1"]
 START_S = 20.0
-"""How long a viewer may take to start."""
+"""Time limit for the start of a viewer (s)."""
 SETTLE_S = 30.0
-"""How long its picture may take to come to rest."""
+"""Time limit until its picture no longer changes (s)."""
 _NO_VIEWER = "the rerun viewer does not start; it needs a display"
 
 
 def show(recording: Path, *, web: bool = False) -> None:
-    """Open a recording and wait until the viewer is closed; in the browser until Ctrl-C.
+    """Open a recording and wait until the viewer is closed; in the browser, until Ctrl-C.
 
     Raises:
-        ExecutiveError: if it does not start, as without a display.
+        ExecutiveError: if it does not start, for example without a display.
     """
     if not web and not has_display():
         raise ExecutiveError(_NO_VIEWER)
@@ -47,18 +47,18 @@ class LiveViewer:
     process: subprocess.Popen[bytes]
 
     def close(self) -> None:
-        """End it, with the process that it runs in."""
+        """End the viewer and its process."""
         os.killpg(self.process.pid, signal.SIGKILL)
         self.process.wait()
 
 
 def picture(recording: Path, mission_s: float) -> bytes:
-    """The viewer at a mission time as a PNG file, once it does not change any more.
+    """A PNG picture of the viewer at a mission time (s), once it no longer changes.
 
-    It needs no display, but a Vulkan driver (Debian's mesa-vulkan-drivers).
+    Needs no display, but a Vulkan driver (Debian's mesa-vulkan-drivers).
 
     Raises:
-        ExecutiveError: if the viewer does not start, or its picture does not come to rest.
+        ExecutiveError: if the viewer does not start, or its picture keeps changing.
     """
     from rerun.experimental import ViewerClient
 
@@ -85,7 +85,7 @@ def start(*options: str) -> LiveViewer:
     """Start a viewer.
 
     Raises:
-        ExecutiveError: if it does not start, as without a display.
+        ExecutiveError: if it does not start, for example without a display.
     """
     if "--headless" not in options and not has_display():
         raise ExecutiveError(_NO_VIEWER)

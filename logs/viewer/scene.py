@@ -1,7 +1,7 @@
-"""The home, the robot, its way and what it sees in rerun.
+"""Draws the home, the robot, its path and what it sees in rerun.
 
-Every drawn thing names its frame (`CoordinateFrame`), and frames hang together by named transforms,
-so entity paths carry no geometry.
+Everything drawn names its frame (`CoordinateFrame`), and frames are connected by named transforms,
+so entity paths have no geometric meaning.
 """
 
 from collections.abc import Iterable, Sequence
@@ -25,30 +25,32 @@ CAMERA = "camera"
 CAMERA_POSE = "camera/pose"
 DETECTIONS = "camera/detections"
 PICTURE_FRAME = "picture"
-"""Where the camera was when it took the latest picture."""
+"""The frame of the camera at the time of the latest picture."""
 IMAGE_FRAME = "picture_plane"
 PICTURE_WIDTH = 640
-"""Of every picture (pixels). The viewer takes JPEGs that follow one another for a video, which has
-one size; but what the robot looks at is larger than what is taken by the way."""
+"""Width of every picture (pixels). The viewer treats consecutive JPEGs as a video, which has one
+size; but pictures that the robot evaluates are larger than those taken on the way.
+"""
 
 _GLTF_TURN = (0.5, 0.5, 0.5, 0.5)
-"""glTF has y up and looks along z; the viewer takes its coordinates as they are."""
+"""glTF has y up and looks along z; the viewer does not convert its coordinates."""
 _CAMERA = (255, 255, 255, 160)
 _FOUND = (60, 220, 90)
 _PLANNED = (30, 130, 255)
 
 
 class Taken(NamedTuple):
-    """A picture as JPEG, and where the camera was in `map`."""
+    """A picture as JPEG, and the pose of the camera in `map`."""
 
     pose: Pose
     jpeg: bytes
 
 
 def log_frames(stream: rr.RecordingStream) -> None:
-    """Say in which frames things are drawn that come and go.
+    """Log the frames of things that come and go.
 
-    Frames must hang together from the start: before the first picture the camera is there, unseen.
+    All frames must be connected from the start, so before the first picture the camera has a pose,
+    but is not shown.
     """
     stream.log(PLAN, rr.CoordinateFrame("map"), static=True)
     stream.log(CAMERA, rr.CoordinateFrame(IMAGE_FRAME), static=True)
@@ -61,7 +63,7 @@ def log_frames(stream: rr.RecordingStream) -> None:
 
 
 def log_scene(stream: rr.RecordingStream, entities: Iterable[Entity]) -> None:
-    """Log all shapes once; from then on only their frames move."""
+    """Log all shapes once; afterwards, only their frames move."""
     for entity in entities:
         by_kind = sorted(entity.shapes, key=lambda shape: shape.kind)
         for kind, shapes in groupby(by_kind, key=lambda shape: shape.kind):
@@ -98,7 +100,7 @@ def _log_mesh(
 ) -> None:
     if not Path(shape.mesh).is_file():
         raise ValueError(f"the mesh {shape.mesh} is not there")
-    from scipy.spatial.transform import Rotation  # takes long to import, and few show meshes
+    from scipy.spatial.transform import Rotation  # slow to import, and meshes are rare
 
     turn = Rotation.from_quat(shape.pose.orientation)
     if shape.mesh.endswith(".glb"):
@@ -117,7 +119,7 @@ def _log_mesh(
 
 
 def send_transforms(stream: rr.RecordingStream, moved: Sequence[At[Transform]]) -> None:
-    """Send where frames are in their parents, a row each."""
+    """Send the poses of frames in their parents, one row each."""
     transforms = [at.value for at in moved]
     stream.send_columns(
         FRAMES,
@@ -132,13 +134,13 @@ def send_transforms(stream: rr.RecordingStream, moved: Sequence[At[Transform]]) 
 
 
 def log_path(stream: rr.RecordingStream, path: PlannedPath) -> None:
-    """Log the planned way as a line a little above the floor; no points: no line."""
+    """Log the planned path as a line just above the floor; without points, there is no line."""
     strips = [np.array(path.points) + (0.0, 0.0, 0.02)] if path.points else []
     stream.log(PLAN, rr.LineStrips3D(strips, colors=_PLANNED, radii=0.02))
 
 
 def log_intrinsics(stream: rr.RecordingStream, i: Intrinsics, reach_m: float = 0.6) -> None:
-    """Log a pinhole camera whose picture is drawn so far in front of it."""
+    """Log a pinhole camera; its picture is drawn at a distance of `reach_m` (m)."""
     stream.log(
         CAMERA,
         rr.Pinhole(
@@ -155,7 +157,7 @@ def log_intrinsics(stream: rr.RecordingStream, i: Intrinsics, reach_m: float = 0
 
 
 def send_pictures(stream: rr.RecordingStream, taken: Sequence[At[Taken]]) -> None:
-    """Send pictures and where the camera was, a row each."""
+    """Send pictures with the poses of the camera, one row each."""
     times = time_columns([at.moment for at in taken])
     pictures = [at.value for at in taken]
     count = len(pictures)
@@ -177,12 +179,12 @@ def send_pictures(stream: rr.RecordingStream, taken: Sequence[At[Taken]]) -> Non
 
 
 def clear_detections(stream: rr.RecordingStream) -> None:
-    """Take away what was seen in the last picture."""
+    """Remove the detections of the last picture."""
     stream.log(DETECTIONS, rr.Clear(recursive=False))
 
 
 def log_detections(stream: rr.RecordingStream, seen: Seen, scale: float) -> None:
-    """Log a labelled rectangle for each detection, on a picture that was scaled."""
+    """Log a labelled rectangle for each detection, on a picture scaled by `scale`."""
     boxes = [d.box for d in seen.detections]
     stream.log(
         DETECTIONS,

@@ -1,4 +1,4 @@
-"""The mission as a rerun recording, saved for replay and shown live if wished."""
+"""Writes the mission as a rerun recording, to a file, live to a viewer, or both."""
 
 import atexit
 import threading
@@ -46,7 +46,7 @@ from logs.viewer.tree import TreeView
 
 APPLICATION = "robot-executive"
 FLUSH_S = 5.0
-"""How long a flush may take."""
+"""Time limit of a flush (s)."""
 
 _SPEAKERS = {"person": (120, 190, 255), "robot": (255, 200, 90)}
 
@@ -54,15 +54,15 @@ _SPEAKERS = {"person": (120, 190, 255), "robot": (255, 200, 90)}
 class RerunSink:
     """Writes an .rrd file, shows the mission in a viewer, or both.
 
-    Timelines: `mission_time` (to the millisecond), `wall_time` and `tick`. The file carries its own
+    Timelines: `mission_time` (to the millisecond), `wall_time` and `tick`. The file contains its
     blueprint.
     """
 
     def __init__(self, path: Path | None, *, view: bool = False) -> None:
-        """Open the recording, named after the folder that it lies in.
+        """Open the recording, named after its folder.
 
         Args:
-            path: the .rrd file, or None to write none.
+            path: the .rrd file; None to write none.
             view: whether to start a viewer and show the mission live.
 
         Raises:

@@ -1,4 +1,4 @@
-"""What became of each place where the thing may be, as the mission knows it after a tick."""
+"""The state of each candidate place after a tick."""
 
 from collections.abc import Mapping
 from enum import StrEnum
@@ -6,11 +6,11 @@ from typing import Any
 
 
 class State(StrEnum):
-    """How far the search is with a place."""
+    """The state of the search at a place."""
 
     OPEN = "open"
     CURRENT = "current"
-    """The robot is on its way there or looks there."""
+    """The robot is on its way there, or is looking there."""
     EMPTY = "empty"
     """The thing was looked for there, in vain."""
     BEEN = "been"
@@ -23,7 +23,7 @@ def states(situation: Mapping[str, Any]) -> dict[str, State]:
     """The candidates in their order, each with its state.
 
     Args:
-        situation: the snapshot that each tick carries.
+        situation: the snapshot in each tick.
     """
     found = dict.fromkeys((c["place"] for c in situation.get("candidates") or ()), State.OPEN)
     visited = State.EMPTY if situation.get("object") else State.BEEN

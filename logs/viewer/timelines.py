@@ -1,4 +1,4 @@
-"""When something was, on the timelines of the rerun recording."""
+"""Times on the timelines of the rerun recording."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,20 +8,20 @@ import numpy as np
 import rerun as rr
 
 MISSION_TIME, WALL_TIME, TICK = "mission_time", "wall_time", "tick"
-"""The timelines."""
+"""Names of the timelines."""
 
 T = TypeVar("T")
 
 
 class Moment(NamedTuple):
-    """Mission time (ns), wall time (ns since 1970) and the tick before it."""
+    """Mission time (ns), wall time (ns since 1970) and number of the last tick."""
 
     mission_ns: int
     wall_ns: int
     tick: int
 
     def set_on(self, stream: rr.RecordingStream) -> None:
-        """What is logged next is of this moment."""
+        """Set the time of everything logged next."""
         stream.set_time(MISSION_TIME, duration=np.timedelta64(self.mission_ns, "ns"))
         stream.set_time(WALL_TIME, timestamp=np.datetime64(self.wall_ns, "ns"))
         stream.set_time(TICK, sequence=self.tick)
@@ -29,14 +29,14 @@ class Moment(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class At(Generic[T]):
-    """Something, and its moment."""
+    """A value and its time."""
 
     moment: Moment
     value: T
 
 
 def time_columns(moments: Sequence[Moment]) -> list[rr.TimeColumn]:
-    """For rows that are sent together."""
+    """The time columns of rows that are sent together."""
     mission_ns, wall_ns, ticks = np.array(moments, np.int64).T
     return [
         rr.TimeColumn(MISSION_TIME, duration=mission_ns.view("timedelta64[ns]")),

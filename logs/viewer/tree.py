@@ -1,4 +1,4 @@
-"""The behaviour tree in rerun: a graph of the branch at work, and lanes of what ran when."""
+"""The behaviour tree in rerun: a graph of the active branch, and lanes of what ran when."""
 
 from collections.abc import Callable, Sequence
 from functools import cache
@@ -25,34 +25,34 @@ _STATUS_STYLE = rr.StateConfiguration(
     visible=[status != "INVALID" for status in COLORS],
 )
 _SIGNS = {"sequence": "→", "selector": "?", "parallel": "||", "decorator": "◇"}
-"""The viewer ends at once if its font has not a sign."""
+"""The viewer crashes if its font lacks a sign."""
 
 _ROW, _INDENT, _COLUMN, _LETTER, _PADDING = 34.0, 48.0, 170.0, 5.8, 20.0
-"""Layout of the graphs (viewer units): a row, a level (of either layout), a letter, a margin."""
+"""Layout of the graphs (viewer units): a row, a level (in either layout), a letter, a margin."""
 
 
 Layout = Callable[[Sequence[NodeShape], Sequence[str]], list[tuple[float, float]]]
-"""From nodes and their labels to the middles of the nodes."""
+"""Computes the centres of nodes from the nodes and their labels."""
 
 
 class TreeView:
-    """Draws the ticks of one tree; what did not change is not logged again."""
+    """Draws the ticks of one tree; logs only what has changed."""
 
     def __init__(self, stream: rr.RecordingStream, tree: TreeShape) -> None:
-        """Draw nothing yet."""
+        """Nothing is drawn yet."""
         self._stream = stream
         self._tree = tree
         stages = [node for node in tree.nodes if node.stage]
         self._lanes = {node.path: _lane(LANES, i, node) for i, node in enumerate(stages, start=1)}
-        """The parts of the mission."""
+        """The lanes of the stages of the mission."""
         self._every = {node.path: _lane(EVERY, i, node) for i, node in enumerate(tree.nodes)}
         self._shown: dict[str, str] = {}
-        """What each lane says."""
+        """The current state of each lane."""
         self._graphs: dict[str, tuple[Sequence[NodeShape], list[int]]] = {}
         """The nodes of each graph, and their colours."""
 
     def show(self, tick: Tick) -> None:
-        """Log what changed with this tick."""
+        """Log what has changed in this tick."""
         statuses = {node.path: node.status for node in tick.nodes}
         self._graph(BRANCH, _branch(self._tree, tick.tip), statuses, _outline)
         self._graph(WHOLE, self._tree.nodes, statuses, _columns)
@@ -89,7 +89,7 @@ class TreeView:
         )
 
     def _status(self, path: str, status: str) -> None:
-        """A lane for a behaviour, from when it first does something."""
+        """The lane of a behaviour, which begins when it is first active."""
         if path not in self._shown:
             if status == "INVALID":
                 return
@@ -104,12 +104,12 @@ class TreeView:
 
 @cache
 def _change(state: str) -> rr.StateChange:
-    """A few states change often."""
+    """The change to a state; cached, as there are only a few."""
     return rr.StateChange(state=state)
 
 
 def _lane(folder: str, number: int, node: NodeShape) -> str:
-    """Where a behaviour's lane is logged; lanes are drawn in the order of their names."""
+    """The entity path of a behaviour's lane; lanes are drawn in the order of their names."""
     return f"{folder}/{number}_{node.name.replace(' ', '_')}"
 
 
@@ -120,7 +120,7 @@ def _branch(tree: TreeShape, tip: str) -> list[NodeShape]:
 
 
 def _outline(nodes: Sequence[NodeShape], labels: Sequence[str]) -> list[tuple[float, float]]:
-    """From top to bottom, a row each, indented by depth: for a narrow view."""
+    """From top to bottom, one row each, indented by depth: for a narrow view."""
     return [
         (_depth(node) * _INDENT + (_PADDING + len(label) * _LETTER) / 2, row * _ROW)
         for row, (node, label) in enumerate(zip(nodes, labels, strict=True))
@@ -128,7 +128,7 @@ def _outline(nodes: Sequence[NodeShape], labels: Sequence[str]) -> list[tuple[fl
 
 
 def _columns(nodes: Sequence[NodeShape], labels: Sequence[str]) -> list[tuple[float, float]]:
-    """From left to right, a row a leaf, parents in the middle of their children."""
+    """From left to right, one row for each leaf, parents in the middle of their children."""
     rows: dict[str, list[float]] = {}
     leaves = len(nodes)
     for node in reversed(nodes):

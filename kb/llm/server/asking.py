@@ -1,4 +1,4 @@
-"""Asking a server until it answers, or until there is nothing more to try."""
+"""Sends a request to a server, with retries, until it answers or nothing is left to try."""
 
 import asyncio
 import json
@@ -24,15 +24,15 @@ from kb.llm.server.packed import NotUnpacked, unpacked
 from kb.llm.server.wire import BrokenOff, NotJson, Written, objects
 
 PAUSE_S = 0.5
-"""Before the second try, if the server does not say; then twice as long each time."""
+"""Pause before the first retry (s), if the server gives none; doubled each time."""
 MOST_WAITS = 4
-"""How often a server that is too busy is asked again, and ..."""
+"""Retries if a server is busy, ..."""
 MOST_ERRORS = 1
-"""... one that fails."""
+"""... and if it fails."""
 MOST_MODELS = 5
 """How many of a server's models are tried."""
 LOOKING_S = 10.0
-"""How long a server may take to list its models, if one is named or nobody asks it anything yet."""
+"""Time limit for a list of models (s), if a model is named or no request is waiting."""
 MOST_OF_A_LISTING = 4 << 20
 """Bytes."""
 BUSY = (429, 503, 529)
@@ -44,7 +44,7 @@ logging.getLogger("httpcore2").setLevel(logging.INFO)  # below, it writes header
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """What came of a request that was answered."""
+    """The answer to a request."""
 
     got: Written
     text: str
@@ -52,18 +52,18 @@ class Asked:
 
 
 class _Tries:
-    """What is left of patience with one request."""
+    """The retries and the time left for one request."""
 
     def __init__(self, until: float) -> None:
         self._until = until
         self._waits, self._errors = 0, 0
 
     def pause_s(self, status: int = 500, wait_s: float | None = None) -> float | None:
-        """How long to wait before the next try (seconds); None: there is none.
+        """The pause before the next try (s); None if there is none left.
 
         Args:
-            status: of the refusal; 500 for what failed without one.
-            wait_s: how long the server asks to wait.
+            status: HTTP status of the refusal; 500 for a failure without one.
+            wait_s: the pause that the server asks for (s).
         """
         pause = PAUSE_S * 2**self._waits if wait_s is None else wait_s
         if status in BUSY:
@@ -77,7 +77,7 @@ class _Tries:
 
 
 class Asking:
-    """One server and what is known of it: where its endpoints are, its models, what it takes."""
+    """One server, and what is known about it: endpoints, models, accepted parameters."""
 
     def __init__(
         self, url: str, dialect: Dialect, model: str | None, key: Key, timeout_s: float
@@ -97,18 +97,18 @@ class Asking:
         self.name = model or self._shown
 
     async def look(self) -> str:
-        """See what the server has; return why it cannot be used as far as that is known now."""
+        """Ask for the models; return why the server cannot be used, if that is already known."""
         try:
             async with asyncio.timeout(min(LOOKING_S, self._timeout_s)):
                 await self._look()
         except TimeoutError:
             return f"{self._shown} is silent"
-        except Exception as error:  # this is no more than a look
+        except Exception as error:  # only a check, which must not fail
             return self._sentence(error)
         return ""
 
     async def ask(self, request: ChatRequest) -> Asked | Failed:
-        """Ask, wait where the server wants it, leave out what it refuses. Never raises."""
+        """Send a request; wait and adapt as the server demands. Never raises."""
         began = time.monotonic()
         got = Written()
         try:
@@ -118,7 +118,7 @@ class Asking:
             return Failed(f"{self._shown} did not answer within {self._timeout_s:g} s")
         except (Refused, BrokenOff, NotJson, httpx2.HTTPError) as error:
             return Failed(self._sentence(error))
-        except Exception as error:  # a request must never be left without an end
+        except Exception as error:  # every request must get a result
             return Failed(f"{self._shown} failed: {self._shortly(repr(error))}")
         text = self._key.hidden_in(writable(got.text))
         got.finish_reason = self._shortly(got.finish_reason)
@@ -142,7 +142,7 @@ class Asking:
             except Refused as refused:
                 if got.chunks:
                     raise
-                if self._otherwise(refused, body):
+                if self._adapts(refused, body):
                     continue
                 if (pause := tries.pause_s(refused.status, refused.wait_s)) is None:
                     self._dialect = learned  # what was tried did not help
@@ -157,7 +157,7 @@ class Asking:
             await asyncio.sleep(pause)
 
     async def _stream(self, body: dict[str, Any], got: Written, began: float) -> None:
-        """Ask, and put into `got` what arrives."""
+        """Send the request, and add what arrives to `got`."""
         url = f"{self._bases[0]}/chat/completions"
         async with self._connected().stream("POST", url, json=body) as response:
             if response.status_code != 200:
@@ -170,10 +170,10 @@ class Asking:
                 if not got.finish_reason and got.written is None:  # usage comes last
                     raise
 
-    def _otherwise(self, refused: Refused, body: dict[str, Any]) -> bool:
-        """Whether there is another way to ask: it is taken from now on.
+    def _adapts(self, refused: Refused, body: dict[str, Any]) -> bool:
+        """Adapt the request to a refusal, for all later ones, too; whether that was possible.
 
-        Each time there is a way less, so that this comes to an end.
+        Each time, one alternative less is left, so this terminates.
         """
         if not body or refused.status in (*BUSY, *DENIED):
             return False
@@ -192,8 +192,8 @@ class Asking:
     async def _look(self) -> None:
         """Find the endpoints and the models, once.
 
-        If no model is named, one waits for the list as long as for an answer: a server that is busy
-        with somebody else's question may not list its models meanwhile.
+        If no model is named, the time limit for the list is that of an answer: a server that is
+        busy with another request may not list its models meanwhile.
         """
         async with self._looking:
             if self._looked:
@@ -233,7 +233,7 @@ class Asking:
         return self._client
 
     def _sentence(self, error: Exception) -> str:
-        """Why it did not answer, as a clause; without the key, whatever the server says."""
+        """The error as a clause, without the key, whatever the server said."""
         match error:
             case Refused():
                 told = Refused(error.status, self._key.hidden_in(error.says))
@@ -259,7 +259,7 @@ class Asking:
 
 
 def _lists_none(status: int) -> bool:
-    """Whether a server that says so may chat all the same."""
+    """Whether a server with this status may still be able to chat, without a list of models."""
     return 400 <= status < 500 and status not in (*BUSY, *DENIED)
 
 
@@ -272,7 +272,7 @@ async def _refused(response: httpx2.Response) -> Refused:
 
 
 async def _json(response: httpx2.Response) -> object:
-    """The value in a response; None if it is none."""
+    """The JSON value in a response; None if there is none."""
     try:
         value: object = json.loads(await _read(response, MOST_OF_A_LISTING))
     except (ValueError, RecursionError):
@@ -281,7 +281,7 @@ async def _json(response: httpx2.Response) -> object:
 
 
 async def _read(response: httpx2.Response, most: int) -> bytes:
-    """The beginning of what it sends, at most so many bytes and a chunk."""
+    """The first bytes of a response, at most `most`."""
     read = bytearray()
     try:
         async with aclosing(unpacked(response)) as parts:

@@ -1,4 +1,4 @@
-"""How a server wants to be asked: what it refuses is left out, or said in its other way."""
+"""Adapts requests to a server: what it refuses is omitted, or expressed in another way."""
 
 import re
 from collections.abc import Mapping
@@ -9,11 +9,11 @@ from executive.types.llm import ChatRequest
 from kb.llm.turns import without_system
 
 OPTIONAL = ("stream_options", "seed", "top_p", "temperature", "stream")
-"""What can be done without."""
+"""Parameters that may be omitted."""
 LIMITS = ("max_tokens", "max_completion_tokens", None)
-"""What the longest reply is called; None: it cannot be said."""
+"""Names for the limit of a reply's length; None: it is omitted."""
 SCHEMAS = ("json_schema", "json_object", None)
-"""How a schema is written: as OpenAI does, as llama_cpp.server does, or not at all."""
+"""Forms of a schema: OpenAI's, that of llama_cpp.server, or none."""
 
 _NO_SYSTEM = re.compile(
     r"\bsystem\b(?!\s+(?:error|fail|is\b|overload|busy|memory|resource))"
@@ -25,21 +25,21 @@ _NO_SYSTEM = re.compile(
 _NO_SCHEMA = re.compile(r"response.?format|json.?schema|guided|grammar|structured", re.IGNORECASE)
 _TOO_LONG = re.compile(r"context.{0,20}(?:length|window|size)|maximum context", re.IGNORECASE)
 _DISLIKES = (400, 422)
-"""Statuses of a server that cannot read what it was sent."""
+"""Statuses of a server that does not accept the content of a request."""
 
 
 class Dialect:
-    """The body of a request, as the server at hand takes it. What it learns, it keeps."""
+    """Makes the body of a request as the server accepts it; remembers what it refused."""
 
     def __init__(
         self, sampling: Mapping[str, float | int], max_tokens: int, *, grammar: bool
     ) -> None:
-        """Begin with OpenAI's own.
+        """Start with OpenAI's format.
 
         Args:
             sampling: temperature and the like.
-            max_tokens: longest reply (tokens).
-            grammar: ask for replies that keep to the request's schema.
+            max_tokens: length limit of a reply (tokens).
+            grammar: whether to ask for replies that conform to the request's schema.
         """
         self._sampling = dict(sampling)
         self._max_tokens = max_tokens
@@ -49,7 +49,7 @@ class Dialect:
         self._no_system = False
 
     def body(self, request: ChatRequest, model: str) -> dict[str, Any]:
-        """What to send."""
+        """The body of a request."""
         chat = without_system(request.messages) if self._no_system else request.messages
         body: dict[str, Any] = {
             "model": model,
@@ -72,9 +72,9 @@ class Dialect:
         return {key: value for key, value in body.items() if key not in self._left_out - {"stream"}}
 
     def learns(self, refused: Refused, body: Mapping[str, Any]) -> bool:
-        """Whether what is refused in this body can be done without; then it is, from now on.
+        """Omit what the server names in its refusal, from now on; whether something was omitted.
 
-        Each time there is less to refuse, so that this comes to an end.
+        Each time, less is left to refuse, so this terminates.
         """
         if _TOO_LONG.search(refused.says):
             return False
@@ -97,7 +97,7 @@ class Dialect:
         return bool(named)
 
     def guesses(self, refused: Refused, body: Mapping[str, Any]) -> bool:
-        """Whether less could be asked for, where the server does not say what it dislikes."""
+        """Omit something if the server does not say what it refuses; False if nothing is left."""
         if "response_format" in body and refused.status in (*_DISLIKES, 500):
             self._schemas.pop(0)
             return True

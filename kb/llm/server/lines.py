@@ -1,4 +1,4 @@
-"""The lines of what a server sends, as they come."""
+"""Reads the lines of a response as they arrive."""
 
 import re
 from codecs import BOM_UTF8
@@ -10,19 +10,19 @@ import httpx2
 from kb.llm.server.packed import unpacked
 
 MOST_BYTES = 8 << 20
-"""Of one reply."""
+"""Maximum size of a reply."""
 _ENDS = re.compile(rb"\r\n|\r|\n")
 
 
 class TooLong(Exception):
-    """There is no end to it."""
+    """The reply is too long."""
 
 
 async def lines(response: httpx2.Response) -> AsyncGenerator[str, None]:
-    r"""The lines, whichever way they end, as soon as each is there.
+    r"""The lines, with any kind of line end, as soon as each is complete.
 
     Raises:
-        TooLong: if they are too many bytes.
+        TooLong: if there are too many bytes.
         NotUnpacked: as `unpacked` does.
     """
     begun = list[bytes]()

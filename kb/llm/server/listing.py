@@ -1,4 +1,4 @@
-"""Which of a server's models can hold a chat."""
+"""Selects the models of a server that can chat."""
 
 import re
 from collections.abc import Iterator
@@ -27,16 +27,16 @@ _IS_NO_CHAT = re.compile(
 
 
 def chat_models(listing: object) -> tuple[str, ...]:
-    """The models of a listing, those first whose names do not say that they do something else.
+    """The models in a listing; those whose names suggest another purpose come last.
 
-    It is OpenAI's `{"data": [{"id": ...}]}`, a bare list, or Ollama's `{"models": [...]}`.
+    Accepts OpenAI's `{"data": [{"id": ...}]}`, a bare list, and Ollama's `{"models": [...]}`.
     """
     names = list(dict.fromkeys(_names(listing)))
     return tuple(sorted(names, key=lambda name: bool(_NO_CHAT.search(name.replace("_", "-")))))
 
 
 def is_about_the_model(refused: Refused) -> bool:
-    """Whether another model might do what this one was refused for."""
+    """Whether another model might accept what this one refused."""
     return bool(_IS_NO_CHAT.search(refused.says))
 
 

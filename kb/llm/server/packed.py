@@ -1,4 +1,4 @@
-"""What a server sends, unpacked where it was packed although nobody asked for that."""
+"""Decompresses responses, which some servers compress without being asked to."""
 
 import zlib
 from collections.abc import AsyncGenerator
@@ -6,19 +6,19 @@ from collections.abc import AsyncGenerator
 import httpx2
 
 MOST_AT_ONCE = 1 << 16
-"""Bytes: what is packed may be a thousand times as long, and whoever reads it counts."""
+"""Bytes: compressed data may expand a thousandfold, and the caller limits the total."""
 _KNOWN = ("gzip", "x-gzip", "deflate")
 
 
 class NotUnpacked(Exception):
-    """It is packed in a way that is not known, or not as it says."""
+    """The compression is unknown, or the data is invalid."""
 
 
 async def unpacked(response: httpx2.Response) -> AsyncGenerator[bytes, None]:
-    """The bytes of a reply as they come.
+    """The bytes of a response as they arrive, decompressed.
 
     Raises:
-        NotUnpacked: if they cannot be had.
+        NotUnpacked: if they cannot be decompressed.
     """
     coding = response.headers.get("Content-Encoding", "").strip().lower() or "identity"
     if coding not in ("identity", *_KNOWN):

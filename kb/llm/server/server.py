@@ -1,4 +1,4 @@
-"""A language model behind HTTP: any server that speaks OpenAI's `/v1/chat/completions`."""
+"""A language model behind HTTP: any server with OpenAI's `/v1/chat/completions`."""
 
 import asyncio
 import logging
@@ -19,21 +19,21 @@ from kb.llm.thinking import answer_of, used_up
 from kb.llm.threads import Daemons
 
 BYTES_PER_TOKEN = 3
-"""A careful estimate for English: such servers do not offer their tokenizer."""
+"""A cautious estimate for English: such servers do not offer their tokenizer."""
 _SHOWN = 100
 """Characters of what was not expected."""
 MOST_ANSWERED = 200_000
 """Characters of an answer: a recording keeps it with each event, call and tick that has it."""
 CLOSING_S = 1.0
-"""A thread that takes longer to hang up is left to itself."""
+"""A thread that takes longer to disconnect is abandoned (s)."""
 
 log = logging.getLogger(__name__)
 
 
 class Server:
-    """Implements `LanguageModel` with a server; it writes, but cannot score.
+    """Implements `LanguageModel` with a server, which can write but not score.
 
-    Replies are streamed, so that a cancelled request is hung up on at once.
+    Replies are streamed, so that cancelling a request disconnects at once.
     """
 
     can_rank = False
@@ -48,18 +48,18 @@ class Server:
         api_key: Key | None = None,
         timeout_s: float = 60.0,
     ) -> None:
-        """Prepare to talk to the server; nothing is sent yet.
+        """Prepare the connection; nothing is sent yet.
 
         Args:
-            url: such as `http://127.0.0.1:8000/v1`; `/v1` may be left out.
-            inbox: where requests end.
-            options: how the model is to write.
-            model: name of the model there; None: the first that the server lists and that chats.
+            url: such as `http://127.0.0.1:8000/v1`; `/v1` may be omitted.
+            inbox: receives the results.
+            options: how the model writes.
+            model: the server's name of the model; None: the first in its list that chats.
             api_key: sent as a bearer token, to this server only.
-            timeout_s: how long a reply may take, all tries together (seconds).
+            timeout_s: time limit of a reply, with all retries (s).
 
         Raises:
-            InputError: if the address has a user or a password in it.
+            InputError: if the address contains a user or a password.
         """
         refuse_secrets(url, LLM_KEY)
         self._inbox = inbox
@@ -79,7 +79,7 @@ class Server:
 
     @property
     def name(self) -> str:
-        """What the model is called, or where it is as long as that is not known."""
+        """The name of the model; the address of the server until it is known."""
         return self._asking.name
 
     @property
@@ -94,26 +94,26 @@ class Server:
         return number
 
     def rank(self, request: RankRequest) -> int:
-        """Ends Failed: such servers do not tell the probabilities of a given text."""
+        """Ends Failed: such servers do not return the probability of a given text."""
         number = self._inbox.open(real=True)
         self._inbox.end(number, Failed("a server's language model cannot score places"))
         return number
 
     def prepare(self, request: ChatRequest | RankRequest) -> None:
-        """See whether the server is there and which models it has; warn if it is not."""
+        """Check that the server is there and which models it has; if not, warn."""
         self._loop.call_soon_threadsafe(self._look)
 
     def cancel(self, request: int) -> None:
-        """Hang up on the server; nothing is delivered."""
+        """Disconnect from the server; no result is delivered."""
         self._loop.call_soon_threadsafe(self._hang_up, request)
         self._inbox.drop(request)
 
     def count_tokens(self, text: str) -> int:
-        """An estimate, rather too high: a token for every three bytes."""
+        """An estimate, usually too high: one token for three bytes."""
         return -(-len(text.encode()) // BYTES_PER_TOKEN)
 
     def close(self) -> None:
-        """Hang up and end the thread."""
+        """Disconnect and end the thread."""
         if self._loop.is_closed():
             return
         self._loop.call_soon_threadsafe(self._end)
@@ -121,7 +121,7 @@ class Server:
         if not self._thread.is_alive():
             self._loop.close()
 
-    # --- from here on in the server's thread ---
+    # --- all that follows runs in the server's thread ---
 
     def _begin(self, number: int, request: ChatRequest) -> None:
         task = self._loop.create_task(self._serve(number, request))
@@ -155,12 +155,12 @@ class Server:
         asked = await self._asking.ask(request)
         try:
             result = asked if isinstance(asked, Failed) else self._result(request, asked)
-        except Exception as error:  # a request must never be left without an end
+        except Exception as error:  # every request must get a result
             result = Failed(f"its reply cannot be taken in: {printable(type(error).__name__)}")
         self._inbox.end(number, result)
 
     def _result(self, request: ChatRequest, asked: Asked) -> Result:
-        """The answer without what was thought before it."""
+        """The answer without the reasoning before it."""
         text, thought = answer_of(asked.text)
         got = asked.got
         written = got.chunks if got.written is None else got.written
@@ -186,7 +186,7 @@ class Server:
 
 
 def _no_answer(got: Written, *, thought: bool) -> str:
-    """Why a reply has nothing in it."""
+    """Why a reply is empty."""
     if got.called:
         return "it called a tool, which it does not have, instead of an answer"
     if thought or got.thought:

@@ -1,4 +1,4 @@
-"""A reply of a server as it comes in: a stream of events, or one JSON object."""
+"""Parses a server's reply as it arrives: a stream of events, or one JSON object."""
 
 import json
 from collections.abc import AsyncGenerator, Sequence
@@ -13,40 +13,40 @@ from kb.llm.server.lines import TooLong, lines
 from kb.llm.server.packed import NotUnpacked
 
 MOST_TOKENS = 10**9
-"""Of what a server may say that it counted."""
+"""Limit for token counts that a server reports."""
 _WORDS = ("content", "text", "response", "refusal")
 _REPLIES = frozenset(("choices", "message", "response"))
-"""An object with one of these is a reply, or a part of one."""
+"""An object with one of these keys is a reply, or a part of one."""
 _THOUGHTS = ("reasoning_content", "reasoning", "thinking")
 _TOOLS = ("tool_calls", "function_call")
 _FIELDS = ("data", "event", "id", "retry", "")
-"""Of an event; a comment has none."""
+"""Fields of an event; a comment has the empty one."""
 _NOTHING = ("", "null")
 """Data of an event that only keeps the connection alive."""
 _SIZED = ("Content-Length", "Transfer-Encoding")
-"""Headers of a reply that cannot end too early unseen."""
+"""With one of these headers, a truncated reply is detected."""
 
 
 class BrokenOff(Exception):
-    """The server did not get to its end; trying again may help."""
+    """The reply is truncated; a retry may help."""
 
 
 class NotJson(Exception):
-    """What came is no reply."""
+    """The response is not a reply."""
 
 
 @dataclass(slots=True)
 class Written:
-    """What has come of a reply so far."""
+    """The part of a reply that has arrived."""
 
     thought: bool = False
-    """Whether the model thought in a field of its own."""
+    """Whether the model returned its reasoning in a separate field."""
     called: bool = False
-    """Whether it called a tool, of which it has none."""
+    """Whether it called a tool, although it has none."""
     is_reply: bool = False
-    """Whether anything came that is a reply, or a part of one."""
+    """Whether anything arrived that is a reply, or a part of one."""
     others: tuple[str, ...] = ()
-    """Keys of the first object that is none."""
+    """Keys of the first object that is not a reply."""
     finish_reason: str = ""
     first_token_s: float = 0.0
     chunks: int = 0
@@ -57,14 +57,14 @@ class Written:
 
     @property
     def text(self) -> str:
-        """All that was said so far."""
+        """The text so far."""
         return "".join(self._parts)
 
     def add(self, chunk: dict[str, Any], after_s: float) -> None:
-        """Take in one object, which came so long after the request.
+        """Add an object, which arrived `after_s` after the request (s).
 
         Raises:
-            Refused: if it tells an error.
+            Refused: if it reports an error.
         """
         if refused := refusal_in(chunk):
             raise refused
@@ -96,10 +96,10 @@ class Written:
 
 
 async def objects(response: httpx2.Response) -> AsyncGenerator[dict[str, Any], None]:
-    """The JSON objects of a reply: events, one object, or an object a line.
+    """The JSON objects of a reply: events, one object, or one object a line.
 
     Raises:
-        BrokenOff: if a stream ends without `[DONE]` and may have been cut off.
+        BrokenOff: if a stream ends without `[DONE]` and may be truncated.
         NotJson: if it is something else.
     """
     reader = _Reader()
@@ -119,7 +119,7 @@ async def objects(response: httpx2.Response) -> AsyncGenerator[dict[str, Any], N
 
 
 class _Reader:
-    """Puts the lines of a reply together to objects."""
+    """Combines the lines of a reply into objects."""
 
     def __init__(self) -> None:
         self.whole: list[str] = []
@@ -129,7 +129,7 @@ class _Reader:
         self._strange = ""
 
     def take(self, line: str) -> list[dict[str, Any]]:
-        """The objects that end with this line."""
+        """The objects completed by this line."""
         mark, colon, data = line.partition(":")
         data = data.strip()
         self.done = data == "[DONE]"
@@ -144,7 +144,7 @@ class _Reader:
         return []
 
     def rest(self) -> list[dict[str, Any]]:
-        """The objects that nothing ended but the reply itself."""
+        """The objects completed by the end of the reply."""
         if self._strange and not (self.whole or self.events or self._event):
             raise NotJson(self._strange)
         return [*self._end_of_event(), *_objects(self.whole)]
@@ -157,7 +157,7 @@ class _Reader:
 
 
 def _objects(said: Sequence[str]) -> list[dict[str, Any]]:
-    """One object that goes over all lines, or one a line."""
+    """One object over all lines, or one object for each line."""
     filled = [line for line in said if line.strip()]
     if not filled:
         return []
@@ -180,7 +180,7 @@ def _object(data: str) -> dict[str, Any]:
 
 
 def _text(content: object) -> str:
-    """What is said: a text, or a list of parts of which some are text."""
+    """The text in a string, or in the text parts of a list."""
     if isinstance(content, str):
         return content
     if isinstance(content, list):
@@ -194,14 +194,14 @@ def _text_of(part: object) -> str:
 
 
 def _count(value: object) -> int | None:
-    """A number of tokens, if it can be one."""
+    """A token count, if it is a valid one."""
     if isinstance(value, bool) or not isinstance(value, int | float):
         return None
     return int(value) if 0 <= value < MOST_TOKENS and value == int(value) else None
 
 
 def _choices(chunk: dict[str, Any]) -> list[dict[str, Any]]:
-    """The first of what a model might say, of OpenAI's kind or of Ollama's own."""
+    """The first choice, in OpenAI's format or in Ollama's own."""
     if isinstance(chunk.get("message"), dict) or isinstance(chunk.get("response"), str):
         return [chunk]
     return [c for c in _dicts(chunk.get("choices")) if c.get("index") in (0, None)]
