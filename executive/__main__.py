@@ -1,4 +1,4 @@
-"""The door: `python -m executive "Bring a sugar_box"`."""
+"""The main program: `python -m executive "Bring a sugar_box"`."""
 
 from executive.start import begin
 
@@ -46,19 +46,19 @@ if TYPE_CHECKING:  # what takes long to import is not for --help or a wrong opti
     from executive.user import Console
 
 EXIT = {"done": DONE, "not_done": NOT_DONE, "not_understood": BAD_INPUT, "stopped": STOPPED}
-"""By the mission's status."""
+"""Exit statuses by the mission's status."""
 
 log = logging.getLogger(__name__)
 
 
 PROMPT = "What can I do for you?"
 CLOSED_S = 1.0
-"""How long the model and the simulator may take to be freed before the program ends without."""
+"""How long (s) freeing the model and the simulator may take before the program ends anyway."""
 
 
 @entry_point
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a mission, or one for each line that the person types; return the exit code."""
+    """Run one mission, or one for each line that the person types; return the exit status."""
     options = vars(parsed(arguments))
     said = options.pop("words")
     words = " ".join(said) if said else None
@@ -95,7 +95,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 @contextmanager
 def opened_page(address: Address | None, inbox: "Inbox") -> "Iterator[Page | None]":
-    """The person's page, served meanwhile; its address is printed."""
+    """Serve the person's page inside the block, and print its address."""
     if address is None:
         yield None
         return
@@ -118,8 +118,8 @@ def serve(
     gui: bool,
     as_json: bool,
 ) -> int:
-    """Build the parts, run what is asked, free the parts."""
-    console = person_of(settings, inbox, page)  # hears a stop from now on
+    """Build the parts, run the missions, free the parts; return the exit status."""
+    console = person_of(settings, inbox, page)  # from now on, a stop is heard
     with all_is_kept():
         from executive.app.session import Session
 
@@ -131,7 +131,7 @@ def serve(
             gui=gui,
             sinks=page.sinks if page else (),
         )
-        with suppress(ImportError):  # which is told when the logs are opened
+        with suppress(ImportError):  # it is reported when the logs are opened
             import logs.viewer.sink  # noqa: F401 - what is imported now is looked through no more
     with session:
         if page:
@@ -150,7 +150,7 @@ def serve(
 
 
 def person_of(settings: Settings, inbox: "Inbox", page: "Page | None") -> "Console | None":
-    """Who types, in the page or in the terminal; None if the settings name somebody else."""
+    """The person at the page or the terminal; None if the settings name a stand-in."""
     from executive.user import Console
 
     if settings.user != "console":
@@ -159,7 +159,7 @@ def person_of(settings: Settings, inbox: "Inbox", page: "Page | None") -> "Conso
 
 
 def do_all(session: "Session", words: str, as_json: bool) -> int:
-    """Do what is said, and then what was heard too late for it; the last exit code."""
+    """Handle a command, then those heard too late for its mission; return the last exit status."""
     code = do(session, words, as_json)
     while session.heard:
         code = do(session, session.heard.popleft(), as_json)
@@ -167,7 +167,7 @@ def do_all(session: "Session", words: str, as_json: bool) -> int:
 
 
 def do(session: "Session", words: str, as_json: bool) -> int:
-    """Do what is said, or answer it; the exit code."""
+    """Answer the words, or run a mission for them; return the exit status."""
     if not as_json and session.talk(words):
         return DONE
     outcome = session.run(words)
@@ -175,7 +175,7 @@ def do(session: "Session", words: str, as_json: bool) -> int:
 
 
 def conclude(outcome: "Outcome", is_recorded: bool, as_json: bool) -> int:
-    """Print the outcome, and whether all of it is recorded; turn it into an exit code."""
+    """Print the outcome, and whether all of it is recorded; return the exit status."""
     if as_json:
         from executive.app.run_folder import to_json
 
@@ -199,10 +199,10 @@ def conclude(outcome: "Outcome", is_recorded: bool, as_json: bool) -> int:
 
 
 def converse(session: "Session", console: "Console", as_json: bool, line: str | None = None) -> int:
-    """Do what the person types, until they end the session; the exit code of the last command.
+    """Handle what the person types, until they end the session; return the last exit status.
 
-    A signal that says stop ends the session, and not only the mission. A `line` that is given is
-    done first.
+    A stop signal ends the session, not only the mission. If a `line` is given, it is handled
+    first.
     """
     code = DONE
     if line is None:
@@ -217,7 +217,7 @@ def converse(session: "Session", console: "Console", as_json: bool, line: str | 
 
 
 def stop_on_signals(inbox: "Inbox") -> None:
-    """Have a signal stop the robot, and answer at once; a second Ctrl-C ends the program."""
+    """Let a stop signal stop the robot, with a reply at once; a second Ctrl-C ends the program."""
     from executive.events import StopRequested
     from executive.user import STOPPING
 
@@ -225,21 +225,21 @@ def stop_on_signals(inbox: "Inbox") -> None:
 
 
 def let_no_reader_hold_the_robot() -> None:
-    """A mission neither ends nor waits for want of someone who reads what is printed."""
+    """Let missions go on if nobody reads the output: a lost or blocked stream is tolerated."""
     if isinstance(sys.stdout, Terminal) and isinstance(sys.stderr, Terminal):
         sys.stdout.dispensable = True
         sys.stderr.hurried = True
 
 
 class _OneLine(logging.Formatter):
-    """What a message quotes cannot forge another one."""
+    """Keeps each message on one line, so that quoted text cannot forge another message."""
 
     def formatMessage(self, record: logging.LogRecord) -> str:  # logging's name
         return printable(super().formatMessage(record))
 
 
 def log_to_stderr(verbose: int) -> None:
-    """Show warnings, or more."""
+    """Log to standard error: warnings, or more with -v and -vv."""
     handler = logging.StreamHandler()
     handler.setFormatter(_OneLine("%(levelname)s %(name)s: %(message)s"))
     level = [logging.WARNING, logging.INFO, logging.DEBUG][min(verbose, 2)]
@@ -247,9 +247,9 @@ def log_to_stderr(verbose: int) -> None:
 
 
 def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
-    """The options and all words, also those behind an option: `Bring --seed 3 a mug`.
+    """Parse options and words; words may also follow an option: `Bring --seed 3 a mug`.
 
-    `parse_intermixed_args` does not read `--` in Python 3.11.
+    `parse_intermixed_args` does not handle `--` in Python 3.11.
     """
     p = parser()
     options, rest = p.parse_known_args(arguments)
@@ -260,7 +260,7 @@ def parsed(arguments: Sequence[str] | None) -> argparse.Namespace:
 
 
 def parser() -> argparse.ArgumentParser:
-    """The command line; what is not given comes from the config file or its default."""
+    """The command-line parser; settings that are not given come from a file or their defaults."""
     p = Parser(
         prog="python -m executive",
         description="Ask a home robot to find, take or bring a thing.",

@@ -21,11 +21,11 @@ from executive.usage import Parser
 
 @entry_point
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run what is left of a campaign, write its tables, return the exit code."""
+    """Run the missing missions of a campaign, write its tables, return the exit status."""
     options = parser().parse_args(arguments)
     if options.workers > 1:
-        start_loading()  # while this process imports what it needs itself
-    # heavy: not for --help or a wrong option
+        start_loading()  # while this process does its own imports
+    # slow to import: not for --help or a wrong option
     if options.weeks:
         with all_is_kept():
             from executive.campaign.weeks.watching import Weeks
@@ -60,7 +60,7 @@ def parser() -> argparse.ArgumentParser:
 
 
 def _add_missions(p: argparse.ArgumentParser) -> None:
-    """Which missions there are."""
+    """Options for the choice of missions."""
     setting = p.add_mutually_exclusive_group()
     setting.add_argument(
         "--ideal",
@@ -101,7 +101,7 @@ def _add_missions(p: argparse.ArgumentParser) -> None:
 
 
 def _add_folders_and_workers(p: argparse.ArgumentParser) -> None:
-    """Where what comes of them is kept, and who runs them."""
+    """Options for folders and worker processes."""
     p.add_argument(
         "--out", type=Path, metavar="DIR", help="default: campaigns/ideal, /physics or /weeks"
     )
@@ -116,7 +116,7 @@ def _add_folders_and_workers(p: argparse.ArgumentParser) -> None:
 
 
 def _add_settings(p: argparse.ArgumentParser) -> None:
-    """What each of them is run with."""
+    """Options for the settings of the missions."""
     p.add_argument(
         "--policy",
         action="append",

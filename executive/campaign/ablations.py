@@ -1,4 +1,4 @@
-"""Ablations of the executive: less a part of what is built around the model, or with one spoilt."""
+"""Ablations of the executive: variants without a part around the model, or with a spoilt one."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -19,18 +19,18 @@ WITHOUT_A_HOME = f"""\
 You help a robot that fetches things in a home. It tells you what it is after, and you tell it \
 where that thing is kept, using everyday common sense. Answer with one JSON object and nothing \
 else. It has to follow this JSON schema: {Reply.model_json_schema()}"""
-"""What a model is told that knows nothing of the home."""
+"""The system prompt for a model that is told nothing about the home."""
 MOST_NAMES = 5
-"""As many as the prompt asks for."""
+"""The largest number of names, as in the prompt."""
 TOO_SURE = 8.0
-"""So many times as large are the scores, before they become probabilities."""
+"""Factor for the scores before they become probabilities."""
 
 
 class Reworded:
-    """A language model that is asked in other words: implements `LanguageModel` around one."""
+    """Implements `LanguageModel` around another one, and rewords the requests to it."""
 
     def __init__(self, model: LanguageModel, reword: Callable[[ChatRequest], ChatRequest]) -> None:
-        """Reword what it is asked to write."""
+        """Reword the chat requests to `model`."""
         self._model = model
         self._reword = reword
         self.name = model.name
@@ -38,25 +38,25 @@ class Reworded:
         self.can_rank = model.can_rank
 
     def chat(self, request: ChatRequest) -> int:
-        """Ask in other words, if it is about places."""
+        """Pass the request on, reworded if it is about places."""
         about_places = request.label != "command"
         return self._model.chat(self._reword(request) if about_places else request)
 
     def rank(self, request: RankRequest) -> int:
-        """Ask as it is."""
+        """Pass the request on."""
         return self._model.rank(request)
 
     def prepare(self, request: ChatRequest | RankRequest) -> None:
-        """Prepare what will be asked as it is."""
+        """Prepare for requests that are not reworded."""
         if isinstance(request, RankRequest):
             self._model.prepare(request)
 
     def cancel(self, request: int) -> None:
-        """Call it off."""
+        """Cancel the request."""
         self._model.cancel(request)
 
     def count_tokens(self, text: str) -> int:
-        """By the model's tokenizer."""
+        """Length of a text in tokens, by the model's tokenizer."""
         return self._model.count_tokens(text)
 
     def close(self) -> None:
@@ -65,28 +65,28 @@ class Reworded:
 
 
 def any_names(request: ChatRequest) -> ChatRequest:
-    """Hold the reply to its form, but not to the names that exist."""
+    """Restrict the reply to its form, but not to existing names."""
     schema = Reply.model_json_schema()
     schema["properties"]["places"] |= {"minItems": 1, "maxItems": MOST_NAMES}
     return replace(request, schema=schema)
 
 
 def no_home(request: ChatRequest) -> ChatRequest:
-    """Tell the model nothing of the home."""
+    """Leave out what the prompt says about the home."""
     told = [message for message in request.messages if message.role != "system"]
     return replace(any_names(request), messages=(Message("system", WITHOUT_A_HOME), *told))
 
 
 class Unverified(Lister):
-    """Takes every name for a place."""
+    """A lister that accepts every name as a place."""
 
     def verify(self, names: tuple[str, ...], among: tuple[str, ...]) -> Verdict:
-        """Let all pass."""
+        """Accept all names."""
         return Verdict(unique(names))
 
 
 def reworded(reword: Callable[[ChatRequest], ChatRequest]) -> Change:
-    """Asks the model in other words."""
+    """A change that rewords the requests to the model."""
 
     def change(parts: Parts) -> Parts:
         model = Reworded(parts.model, reword) if parts.model else None
@@ -96,7 +96,7 @@ def reworded(reword: Callable[[ChatRequest], ChatRequest]) -> Change:
 
 
 def unverified(parts: Parts) -> Parts:
-    """With advice that makes no existence check."""
+    """Replace the advice by one without the existence check."""
     if parts.model is None:
         return parts
     settings = parts.settings
@@ -113,16 +113,16 @@ def unverified(parts: Parts) -> Parts:
 
 
 class TooSure(Ranker):
-    """Ranks as ever, but believes its own word far too much."""
+    """A ranker with the usual order and far too high confidence."""
 
     def ranked(self, scored: Scored) -> tuple[Candidate, ...]:
-        """The same order, and nearly all of the probability to the first."""
+        """The same order, with nearly all of the probability on the first place."""
         scores = tuple(TOO_SURE * score for score in scored.scores)
         return super().ranked(replace(scored, scores=scores))
 
 
 def too_sure(parts: Parts) -> Parts:
-    """A fault put in by hand."""
+    """Inject a fault: a ranker that is far too sure."""
     if parts.advice is None:
         return parts
     ranker = TooSure(parts.knowledge, prompts=parts.prompts, facts=parts.facts)
@@ -130,5 +130,5 @@ def too_sure(parts: Parts) -> Parts:
 
 
 def exactly(parts: Parts) -> Parts:
-    """Planned among so many places, the likeliest, that the best of all plans is found."""
+    """Plan among only so many places, the likeliest, that the plan is optimal."""
     return replace(parts, parameters=replace(parts.parameters, planned=EXACT))

@@ -1,8 +1,8 @@
-"""Lines appended to a file by several processes of one machine, each whole and on the disk.
+"""Appends lines to a file from several processes of one machine, each line whole and on the disk.
 
-A line that a full disk cuts short is completed when there is room again; one that the death of its
-writer cut short is cut off by the next one who writes. A lock that the system holds for a process,
-and drops with it, keeps them apart.
+A line that a full disk cuts short is completed when there is room again; one that a killed process
+left incomplete is removed by the next writer. Writers hold a file lock, which the system releases
+when a process ends.
 """
 
 import errno
@@ -17,14 +17,14 @@ from pathlib import Path
 from executive.errors import InputError
 
 PATIENCE_S = 60.0
-"""How long a full disk is waited for."""
+"""How long (s) to wait for room on a full disk."""
 _POLL_S = 0.2
 _FULL = {errno.ENOSPC, errno.EDQUOT}
 _TAIL = 1 << 16
 
 
 def append_line(file: Path, line: bytes) -> None:
-    """Append a line, on the disk when this returns; nothing of it is there if it raises.
+    """Append a line; it is on the disk when this returns, and not in the file if this raises.
 
     Raises:
         OSError: if the file cannot be written, or the disk stays full.
@@ -40,7 +40,7 @@ def append_line(file: Path, line: bytes) -> None:
 
 
 def cut_half_line(file: Path) -> None:
-    """Cut off half a line at the end; the file is made if there is none.
+    """Remove an incomplete line at the end; the file is made if there is none.
 
     Raises:
         OSError: if the file cannot be written.
@@ -50,14 +50,14 @@ def cut_half_line(file: Path) -> None:
 
 
 class LineFile:
-    """A journal: a file of lines to which any number of processes on one machine append."""
+    """A journal: a file of lines to which several processes of one machine append."""
 
     def __init__(self, file: Path) -> None:
         """Use this file, which need not exist yet."""
         self.file = file
 
     def mend(self) -> None:
-        """Cut off half a line that a power failure left.
+        """Remove an incomplete line that a power failure left.
 
         Raises:
             InputError: if the file cannot be written.
@@ -69,10 +69,10 @@ class LineFile:
             raise InputError(str(self.file), what, "choose another --out") from None
 
     def write(self, text: str) -> None:
-        """Add a line, on the disk when this returns; a full disk is waited for.
+        """Append a line; it is on the disk when this returns. Waits for room on a full disk.
 
         Raises:
-            InputError: if it cannot be written, and then nothing of it is there.
+            InputError: if it cannot be written; then nothing of it is in the file.
         """
         try:
             append_line(self.file, f"{text}\n".encode())
@@ -83,11 +83,11 @@ class LineFile:
 
     @property
     def size(self) -> int:
-        """Bytes so far."""
+        """Size in bytes."""
         return self.file.stat().st_size if self.file.exists() else 0
 
     def lines(self) -> list[bytes]:
-        """The whole ones."""
+        """All complete lines."""
         return self.file.read_bytes().split(b"\n")[:-1] if self.file.exists() else []
 
 
@@ -104,7 +104,7 @@ def _locked(file: Path) -> Iterator[int]:
 
 
 def _cut_to_whole_lines(target: int) -> int:
-    """Where the next line begins."""
+    """Remove an incomplete line at the end; return the offset of the next line."""
     size = end = os.fstat(target).st_size
     while end:
         start = max(0, end - _TAIL)

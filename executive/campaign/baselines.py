@@ -1,4 +1,4 @@
-"""Baselines of the executive: an order of places that no language model chose."""
+"""Baselines of the executive: orders of places without a language model."""
 
 import random
 from collections import Counter
@@ -18,22 +18,22 @@ from kb.advice.ranker import Ranker
 from kb.ontology.ontology import Ontology
 
 Order = Callable[[str, Sequence[str]], Sequence[str]]
-"""An object's name, and the places that are allowed -> the places in the order to visit them."""
+"""(name of an object, allowed places) -> the places in the order to visit them."""
 
 
 class Indifferent:
-    """Stands in for a language model: all options are alike to it, and their order stays."""
+    """Stands in for a language model: scores all options alike, so that their order stays."""
 
     name = "none"
     context_tokens = 4096
     can_rank = True
 
     def __init__(self, inbox: Inbox) -> None:
-        """Answer at once."""
+        """End requests in this inbox at once."""
         self._inbox = inbox
 
     def chat(self, request: ChatRequest) -> int:
-        """Fail: it cannot write."""
+        """End the request as Failed: it cannot write."""
         number = self._inbox.open()
         self._inbox.end(number, Failed("there is no language model"))
         return number
@@ -45,30 +45,30 @@ class Indifferent:
         return number
 
     def prepare(self, request: ChatRequest | RankRequest) -> None:
-        """Nothing to prepare."""
+        """Do nothing."""
 
     def cancel(self, request: int) -> None:
-        """Forget the request."""
+        """Drop the request."""
         self._inbox.drop(request)
 
     def count_tokens(self, text: str) -> int:
-        """How many words the text has."""
+        """The number of words."""
         return len(text.split())
 
     def close(self) -> None:
-        """Nothing to free."""
+        """Do nothing."""
 
 
 class Ordered(Ranker):
-    """Names the places in a given order, for a model to which they are all alike."""
+    """A ranker that names the places in a given order, for `Indifferent`."""
 
     def __init__(self, parts: Parts, order: Order) -> None:
-        """Order the places of the mission's home."""
+        """Use this order."""
         super().__init__(parts.knowledge)
         self._order = order
 
     def ranking(self, name: str, among: tuple[str, ...]) -> RankRequest:
-        """The allowed places, in order."""
+        """The request with the allowed places in this order."""
         request = super().ranking(name, among)
         words = dict(zip(request.places, request.options, strict=True))
         places = tuple(self._order(name, request.places))
@@ -77,7 +77,7 @@ class Ordered(Ranker):
 
 
 def nearest(parts: Parts) -> Order:
-    """Always go to the place that is nearest to where the robot is, by the map."""
+    """Always go next to the nearest place, by the shortest path in the map."""
     routes = routes_of(parts.home)
 
     def order(name: str, places: Sequence[str]) -> list[str]:
@@ -92,7 +92,7 @@ def nearest(parts: Parts) -> Order:
 
 
 def by_chance(parts: Parts) -> Order:
-    """Any order; the same for the same seed and object."""
+    """A random order; the same for the same seed and object."""
 
     def order(name: str, places: Sequence[str]) -> list[str]:
         chance = random.Random(f"{parts.settings.seed} {name}")
@@ -103,15 +103,15 @@ def by_chance(parts: Parts) -> Order:
 
 @cache
 def the_survey() -> Ontology:
-    """The ontology with the survey's default locations, whatever a mission's situation."""
+    """The ontology with the survey's default locations, also for missions without them."""
     return Ontology(defaults=True)
 
 
 def popular(parts: Parts | None = None) -> Order:
-    """Where other things usually are, by the survey; equals in the home's order.
+    """First the places where most other things are, by the survey; ties in the home's order.
 
-    The record that the asked object takes its own default locations from is left out, and with it
-    all that share it. The survey is used in both situations.
+    The record with the default locations of the requested object is left out, and so are all
+    objects that share it. The survey is used with and without default locations.
     """
     survey = the_survey()
     recorded = survey.recorded_locations()
@@ -127,7 +127,7 @@ def popular(parts: Parts | None = None) -> Order:
 
 
 def true_first(parts: Parts) -> Order:
-    """The place where the thing truly is, then the others: knows the truth, as no robot does."""
+    """First the place where the thing is, by the ground truth, which no robot has."""
 
     def order(name: str, places: Sequence[str]) -> list[str]:
         truth = parts.home.placement.get(name)
@@ -137,9 +137,9 @@ def true_first(parts: Parts) -> Order:
 
 
 def ordered(parts: Parts, rule: Callable[[Parts], Order]) -> Parts:
-    """The parts with advice that goes by a rule instead of a language model.
+    """The parts with advice that follows a rule instead of a language model.
 
-    The settings have to ask for a ranking. okb has no advice, and stays as it is.
+    The settings have to ask for a ranking. The system okb has no advice, and is unchanged.
     """
     if parts.settings.knowledge == KnowledgeSystem.OKB:
         return parts

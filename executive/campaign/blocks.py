@@ -1,10 +1,10 @@
-"""One block of a campaign: a system, a situation and a seed, and all commands in turn.
+"""One block of a campaign: all commands in turn, with one system, situation and seed.
 
-What is kept from command to command, and what is not:
+What is kept between the commands, and what is not:
 
-- The home is put back as its file says, with the robot at its start and a new simulated person.
+- The home is reset to its file, with the robot at its start and a new simulated person.
 - What the robot saw or learned in a mission is forgotten: every mission has its own Session.
-- The language model stays loaded. Only okb+llm+mem is given the dialogue of the commands before.
+- The language model stays loaded. Only okb+llm+mem gets the dialogue of the commands before.
 """
 
 import io
@@ -38,46 +38,46 @@ from sim.home.home_file import load_home
 
 @dataclass(frozen=True, slots=True)
 class Block:
-    """Who lives where, and what is asked of the robot."""
+    """The settings and commands of a block."""
 
     settings: Settings
-    """Of its missions: system, situation, seed and all else; the policy may override some."""
+    """Settings of its missions, with system, situation and seed; the policy may override some."""
     commands: tuple[str, ...]
-    """In the order in which they are given."""
+    """The commands, in order."""
     policy: str = "ours"
     recorded: bool = False
     """Whether each mission leaves a folder in `settings.runs`."""
     draws: bool = False
-    """Whether the thing that is asked for is at a place that the seed draws from the survey.
+    """Whether the requested thing is at a place that the seed draws from the survey.
 
-    The model's thinking takes no mission time then: things and homes are many, and so the figures
-    are those of any machine."""
+    If so, the model's computation takes no mission time, so that the figures do not depend on the
+    machine."""
 
     @property
     def keys(self) -> tuple[Key, ...]:
-        """Its missions."""
+        """The keys of its missions."""
         s, used = self.settings, self.settings_used
         where = (self.policy, label_of(s.home), label_of(used.llm) if used.uses_llm else "none")
         return tuple(Key(*where, s.knowledge, s.defaults, s.seed, w) for w in self.commands)
 
     def run(self, before: Sequence[Entry]) -> Iterator[Entry]:
-        """Run the missions that are no results yet."""
+        """Run the missions that have no result in `before`."""
         return run(self, entries_of(self, before))
 
     @property
     def settings_used(self) -> Settings:
-        """The settings with those of the policy."""
+        """The settings, overridden by those of the policy."""
         return policy_named(self.policy).applied_to(self.settings)
 
 
 def entries_of(block: Block, entries: Sequence[Entry]) -> list[Entry]:
-    """The block's missions among these that are results."""
+    """The entries among these that are results of the block's missions."""
     keys = set(block.keys)
     return [e for e in entries if e.row.key in keys and not e.row.model_failure]
 
 
 def label_of(name_or_file: str) -> str:
-    """What tables call a home or a model: its name, or its file's less folder and ending."""
+    """The name of a home or model in tables: its name, or its file's without folder and suffix."""
     suffixes = (".toml", ".gguf")
     return Path(name_or_file).stem if name_or_file.endswith(suffixes) else name_or_file
 
@@ -90,11 +90,11 @@ def shuffled(commands: Iterable[str], seed: int) -> tuple[str, ...]:
 
 
 def run(block: Block, before: Iterable[Entry] = ()) -> Generator[Entry, None, None]:
-    """Run the missions of a block that are not in `before`, each when it is asked for.
+    """Run the missions of a block that are not in `before`, one per step of the generator.
 
     Raises:
-        ExecutiveError: if the settings, the home or the model file are wrong; what goes wrong in
-            a mission is an entry instead.
+        ExecutiveError: if the settings, the home or the model file are wrong; an exception in a
+            mission becomes an entry instead.
     """
     ended = {entry.row.key: entry for entry in before}
     rest = _Rest(block)
@@ -109,7 +109,7 @@ def run(block: Block, before: Iterable[Entry] = ()) -> Generator[Entry, None, No
 
 
 class _Rest:
-    """What outlives the missions of a block: the model, and what was said to it."""
+    """Runs the rest of a block's missions, and keeps model and dialogue between them."""
 
     def __init__(self, block: Block) -> None:
         self._recorded = block.recorded
@@ -124,7 +124,7 @@ class _Rest:
         self._dialogue: list[tuple[str, str]] = []
 
     def recall(self, entry: Entry) -> None:
-        """Take in what was said in a mission that has ended."""
+        """Add the dialogue of a mission that has ended."""
         self._dialogue += entry.exchanges
 
     def mission(self, turn: int, key: Key) -> Entry:
@@ -146,13 +146,13 @@ class _Rest:
                 )
             except Exception as error:
                 row = crash(turn, key, error, str(session.folder or ""))
-                self._inbox.take_all()  # what the broken mission left
+                self._inbox.take_all()  # events that the crashed mission left
         entry = Entry(row, observed.exchanges())
         self.recall(entry)
         return entry
 
     def _settings_of(self, key: Key) -> Settings:
-        """Those of a mission, in which the thing may be at a place that was drawn."""
+        """The settings of a mission, with a drawn place of its thing if the block draws places."""
         if not self._draws:
             return self._settings
         thing = key.command.rpartition(" ")[2]
@@ -164,9 +164,9 @@ class _Rest:
         return load_home(self._settings.home)
 
     def _choose(self, parts: Parts) -> Parts:
-        """As the policy does; its advice is told the dialogue so far.
+        """Apply the policy, and give its advice the dialogue so far.
 
-        It keeps that if the system has a memory.
+        The advice keeps it if the system has a memory.
         """
         chosen = self._policy(parts)
         if chosen.advice:
@@ -181,7 +181,7 @@ class _Rest:
 
 
 def timeless(settings: Settings, inbox: Inbox) -> Timeless | None:
-    """The model of missions, if they have one, so that its thinking takes no mission time.
+    """The model of the missions, if they have one, wrapped so that it takes no mission time.
 
     Raises:
         ExecutiveError: as `model_for_missions`.
@@ -192,10 +192,10 @@ def timeless(settings: Settings, inbox: Inbox) -> Timeless | None:
 
 
 def truth_of(session: Session) -> SimulatedHome:
-    """The world that knows what truly came of a mission.
+    """The simulated world with the ground truth about a mission.
 
     Raises:
-        InputError: if the robot is not in one.
+        InputError: if the world is not simulated.
     """
     if session.embodiment.truth is None:
         raise InputError(
@@ -264,7 +264,7 @@ def _row(
 
 
 def _beside_s(outcome: Outcome, observed: Observed) -> float:
-    """How long the robot did something else while it thought (s)."""
+    """How long the robot did something else while the model computed (s)."""
     return round(max(0.0, outcome.thinking_time_s - observed.seconds["thinking"]), 3)
 
 
@@ -287,18 +287,18 @@ def grid(
     runs: Path | None = None,
     draws: bool = False,
 ) -> tuple[Block, ...]:
-    """Every block of a campaign, seed by seed, so that early tables are already fair.
+    """All blocks of a campaign, seed by seed, so that early tables compare equal seeds.
 
-    okb asks no model: it is run once in each home, under the first policy.
+    The system okb asks no model, so it is run once in each home, under the first policy.
 
     Args:
         settings: one for each home and language model.
-        policies: by name.
-        systems: the paper's, or some of them.
-        commands: each once.
-        seeds: how many.
-        runs: where missions leave their recordings; None: nowhere.
-        draws: whether things are at places that are drawn.
+        policies: names of the policies.
+        systems: the paper's systems, or some of them.
+        commands: the commands, each once.
+        seeds: number of seeds.
+        runs: folder for the recordings of missions; None: do not record.
+        draws: whether things are at drawn places.
     """
     watched = {"runs": runs} if runs else {"camera_hz": 0.0}
     found = (

@@ -1,4 +1,4 @@
-"""A grid of missions: which there are, which have ended, and the folder that keeps them."""
+"""A campaign: a grid of missions, and the folder that keeps their results."""
 
 import argparse
 import sys
@@ -21,14 +21,14 @@ from executive.text import printable
 SEEDS = 10
 LONGEST_COMMAND = 1000
 MOST_MISSIONS = 1_000_000
-"""Of one campaign."""
+"""The largest number of missions in a campaign."""
 
 
 class Campaign:
-    """A grid of missions, and the folder that keeps what came of them."""
+    """A grid of missions, and the folder that keeps their results."""
 
     def __init__(self, options: argparse.Namespace) -> None:
-        """Read the options, and make the folder and have it to oneself.
+        """Read the options, make the folder and lock it.
 
         Raises:
             InputError: if an option or a file is wrong, or a folder cannot be written to, or it
@@ -68,7 +68,7 @@ class Campaign:
         self._folder = Folder(self._out, settings[0], commands, self._journal)
 
     def run(self) -> int:
-        """Run what has not ended yet; the tables are written however it ends.
+        """Run the missions that have not ended; the tables are written however it ends.
 
         Raises:
             ExecutiveError: if missions cannot be run, or journal or tables cannot be written.
@@ -87,11 +87,11 @@ class Campaign:
         return on_this_machine(options.workers, lambda: self._folder.is_interrupted())
 
     def _entries(self) -> list[Entry]:
-        """Missions of this campaign that have ended; the folder may hold those of others."""
+        """The ended missions of this campaign; the journal may have others, too."""
         return [entry for entry in self._journal.entries() if entry.row.key in self._keys]
 
     def _write(self) -> None:
-        """The tables and the report of what is in the journal."""
+        """Write tables and report of the missions in the journal."""
         rows = in_order((entry.row for entry in self._entries()), self._policies)
         models = sorted({row.model for row in rows if row.model})
         results = [row for row in rows if not row.model_failure]
@@ -116,10 +116,10 @@ class Campaign:
 
 
 def all_settings(options: argparse.Namespace) -> tuple[Settings, ...]:
-    """One for each home and each language model, as the options and the file of settings say.
+    """The settings for each home and each language model, by the options and `--config`.
 
     Raises:
-        InputError: if a setting is wrong, or tables would call two homes or models the same.
+        InputError: if a setting is wrong, or two homes or models have the same name in tables.
     """
     found = tuple(
         load_settings(
@@ -146,13 +146,13 @@ def all_settings(options: argparse.Namespace) -> tuple[Settings, ...]:
 
 
 def at_any_folder(name_or_file: str) -> str:
-    """A file as other processes find it, too; the name of anything else as it is."""
+    """The absolute path of a file, so that other processes find it; other names unchanged."""
     is_file = blocks.label_of(name_or_file) != name_or_file
     return str(Path(name_or_file).resolve()) if is_file else name_or_file
 
 
 def cluster(address: str) -> Runner:
-    """The workers of a Dask cluster.
+    """A runner on the workers of a Dask cluster.
 
     Raises:
         InputError: if Dask is not installed.
@@ -167,14 +167,14 @@ def cluster(address: str) -> Runner:
 
 
 def as_in_paper(settings: Sequence[Settings], commands: Sequence[str]) -> tuple[str, ...]:
-    """The homes in which the paper's figures may stand beside ours: its own, if its commands."""
+    """The homes whose figures are comparable with the paper's: its own, with its commands."""
     if tuple(commands) != paper.COMMANDS:
         return ()
     return tuple({s.home for s in settings if not (s.place or s.fault)} & {paper.HOME})
 
 
 def read_commands(file: Path) -> tuple[str, ...]:
-    """One command a line; empty lines and those that begin with # are left out.
+    """Read commands, one per line; empty lines and those that begin with # are left out.
 
     Raises:
         InputError: if the file cannot be read, has no command, or has one twice.

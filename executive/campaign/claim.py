@@ -1,4 +1,4 @@
-"""A folder that one process has to itself, as long as it lives."""
+"""Locks a folder for one process, until it ends."""
 
 import fcntl
 import os
@@ -8,9 +8,9 @@ from typing import TextIO
 from executive.errors import InputError
 
 LOCK = "lock"
-"""Name of the file that is locked; it stays, but the lock ends with its process."""
+"""Name of the lock file; the file stays, but the lock ends with the process."""
 _FLAGS = os.O_WRONLY | os.O_APPEND | os.O_CREAT | os.O_NONBLOCK
-"""To open it: a named pipe there, which nobody may read, is an error and not waited for."""
+"""Flags to open it; with O_NONBLOCK, a named pipe without a reader is an error, not a wait."""
 
 
 def lock_folder(
@@ -19,12 +19,12 @@ def lock_folder(
     taken: str = "another campaign is running in it",
     right: str = "wait until it has ended, or name another folder",
 ) -> TextIO:
-    """Have the folder until the file that is returned is closed, or this process ends.
+    """Lock a folder until the returned file is closed, or this process ends.
 
-    That somebody else has it is told as `taken`, with what would be `right` then.
+    If another process has the lock, the error says `taken`, and `right` as what to do.
 
     Raises:
-        InputError: if another process has it, or it cannot be written to.
+        InputError: if another process has the lock, or the folder cannot be written to.
     """
     try:
         stream = os.fdopen(os.open(folder / LOCK, _FLAGS, 0o666), "a", encoding="utf-8")

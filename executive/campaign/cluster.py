@@ -1,9 +1,9 @@
 """A campaign on a Dask cluster: workers run missions, this process keeps the journal.
 
-A worker is given one mission of its block after the other, with what was said in those before,
-and keeps the block's model loaded in between. What it returns is written down here, and only
-here, so that no mission counts twice. If a worker is lost, the scheduler gives its mission to
-another one, which takes the block over.
+A worker gets one mission of its block after the other, with the dialogue of those before, and keeps
+the block's model loaded in between. Only this process writes results to the journal, so that no
+mission counts twice. If a worker is lost, the scheduler gives its mission to another one, which
+takes over the block.
 """
 
 import threading
@@ -26,7 +26,7 @@ CONNECTING_S = 20
 
 @dataclass(slots=True)
 class _Turns:
-    """How far a block is, and the address of the worker that has its model loaded."""
+    """The progress of a block, and the address of the worker that has its model loaded."""
 
     block: Block
     before: list[Entry]
@@ -34,7 +34,7 @@ class _Turns:
 
     @property
     def next(self) -> int | None:
-        """Which of the block's missions is to be run now; None if all have ended."""
+        """Index of the block's next mission; None if all have ended."""
         ended = {entry.row.key for entry in self.before}
         left = (turn for turn, key in enumerate(self.block.keys) if key not in ended)
         return next(left, None)
@@ -52,10 +52,10 @@ class Cluster:
     def run(
         self, campaign: Sequence[Block], journal: Journal, progress: Callable[[], None]
     ) -> None:
-        """Run what is left on as many workers as there are, while they come and go.
+        """Run the remaining missions on all workers; workers may join and leave meanwhile.
 
         Raises:
-            ExecutiveError: if there is no scheduler at the address, or it is lost.
+            ExecutiveError: if there is no scheduler at the address, or the connection is lost.
         """
         before = journal.entries()
         turns = (_Turns(block, entries_of(block, before)) for block in campaign)
@@ -78,7 +78,7 @@ class Cluster:
             raise InputError(f"--cluster {self._address}", str(error), right) from None
 
     def _hand_out(self, client: Client) -> None:
-        """Give each idle worker a mission; it goes on with its own block if it has one."""
+        """Give each idle worker a mission, of its own block if it has one."""
         workers = set(client.nthreads())
         for worker in workers - {turns.worker for turns in self._under_way.values()}:
             if not self._waiting:
@@ -97,7 +97,7 @@ class Cluster:
             self._under_way[future] = turns
 
     def _take_in(self) -> Iterator[Entry]:
-        """The missions that have ended, after a little while at most."""
+        """Wait briefly, and collect the missions that have ended."""
         if not self._under_way:
             time.sleep(POLL_S)
             return
@@ -113,7 +113,7 @@ class Cluster:
 
 
 def _result(future: Future[Entry], turns: _Turns) -> Entry:
-    """What came of a mission; one that killed every worker that tried it has crashed."""
+    """The entry of a mission; it has crashed if it killed every worker that tried it."""
     try:
         return future.result()
     except KilledWorker:

@@ -1,4 +1,4 @@
-"""Where a thing is, drawn by a seed from what the paper's survey says of it, in any home."""
+"""Draws, by a seed, where a thing is in any home, from the paper's survey."""
 
 import random
 from functools import cache
@@ -12,19 +12,19 @@ from sim.home.validation import with_placement
 from sim.objects.objects import load_objects
 
 SURVEYED = "four_rooms"
-"""The home whose furniture the survey's default locations name."""
+"""The home to whose furniture the survey's default locations refer."""
 
 
 def commands() -> tuple[str, ...]:
-    """To find each thing that there is."""
+    """A command to find each known thing."""
     return tuple(f"Find the {name}" for name in load_objects())
 
 
 def drawn(home: Home, thing: str, seed: int) -> dict[str, str]:
-    """A placement of this thing: furniture of a kind and in a kind of room that the survey names.
+    """Draw a placement for a thing: furniture of a kind, in a kind of room, from the survey.
 
-    Each such piece is as likely, as far as there is room on it. The place of a thing of which the
-    survey records nothing, or of which this home has no such furniture, is any.
+    All such pieces that have room are equally likely. If the survey has no record of the thing, or
+    the home has no such furniture, all furniture is.
     """
     pieces = home.places()
     usual = {(p.kind, p.room_kind) for p in _surveyed(thing)}

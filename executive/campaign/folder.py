@@ -1,4 +1,4 @@
-"""A campaign's folder: for one process alone, with a journal, and left in order however it ends."""
+"""A campaign's folder: locked by one process, with a journal, and consistent however it ends."""
 
 import json
 import os
@@ -25,7 +25,7 @@ from executive.terminal import show_over
 from executive.text import printable
 
 OF_A_MISSION = {"knowledge", "defaults", "seed", "runs", "home", "llm"}
-"""Settings that the campaign itself varies."""
+"""Settings that a campaign varies."""
 SHOWN_EVERY_S = 0.5
 
 
@@ -33,19 +33,19 @@ class Progress:
     """One line on standard error: missions done, and the time left at the pace so far."""
 
     def __init__(self, total: int, count: Callable[[], int], out: TextIO | None = None) -> None:
-        """`count` tells how many have ended; those of a resumed campaign are no pace."""
+        """`count` returns the number of ended missions; those at the start do not count as pace."""
         self._total, self._count = total, count
         self._before = count()
         self._began = self._shown = time.monotonic()
         self._out = out or sys.stderr
 
     def __call__(self) -> None:
-        """Show it, at most every half second."""
+        """Show the progress, at most every half second."""
         if time.monotonic() - self._shown > SHOWN_EVERY_S:
             self.show()
 
     def show(self) -> None:
-        """Show it now."""
+        """Show the progress now."""
         self._shown, done = time.monotonic(), self._count()
         if now := done - self._before:
             left_s = (self._shown - self._began) / now * (self._total - done)
@@ -54,30 +54,30 @@ class Progress:
 
 
 def clock(seconds: float) -> str:
-    """As hours, minutes and seconds, h:mm:ss."""
+    """A duration as h:mm:ss."""
     minutes, s = divmod(round(seconds), 60)
     return f"{minutes // 60}:{minutes % 60:02}:{s:02}"
 
 
 class Journal(Kept, Protocol):
-    """What the folder keeps of missions that have ended."""
+    """The file with the results of ended missions."""
 
     def mend(self) -> None:
-        """Cut off half a line at its end."""
+        """Remove an incomplete line at the end."""
         ...
 
     def damage(self) -> list[str]:
-        """A sentence for each line that is none."""
+        """A sentence for each damaged line."""
         ...
 
 
 class Folder:
-    """The folder, and the run of what is left to do in it."""
+    """The folder, in which the remaining missions are run."""
 
     def __init__(
         self, out: Path, settings: Settings, commands: Sequence[str], journal: Journal
     ) -> None:
-        """Make it, have it to oneself, and tell what is damaged in its journal.
+        """Make and lock the folder, and warn of damage in its journal.
 
         Raises:
             InputError: if it cannot be used, holds another campaign, or another process runs one
@@ -88,9 +88,9 @@ class Folder:
         make_folder(out, "--out")
         with ExitStack() as until_it_fails:
             self.lock = until_it_fails.enter_context(lock_folder(out, "--out"))
-            """Whoever leaves it lets others have the folder; `run` does."""
+            """Closing it releases the folder; `run` does that."""
             self.about = claim(out, settings, commands)
-            """What a report says of it."""
+            """Facts for the report."""
             journal.mend()
             self.damage = journal.damage()
             until_it_fails.pop_all()
@@ -100,13 +100,16 @@ class Folder:
     def run(
         self, runner: Runner, units: Sequence[Any], count: Progress, write: Callable[[], None]
     ) -> bool:
-        """Run what has not ended yet, and write what came of it; whether it came to the end.
+        """Run the missions that have not ended, and write the results.
 
         Args:
-            runner: who runs it.
-            units: all of it.
-            count: shows how much has ended.
-            write: writes tables and report; it is called however it ends.
+            runner: runs the missions.
+            units: all units of the campaign.
+            count: shows the progress.
+            write: writes tables and report; called however the run ends.
+
+        Returns:
+            False if it was interrupted.
 
         Raises:
             ExecutiveError: if missions cannot be run, or journal or tables cannot be written.
@@ -126,13 +129,13 @@ class Folder:
         return True
 
     def is_interrupted(self) -> bool:
-        """Whether a signal said stop."""
+        """Whether a stop signal has come."""
         return self._interrupted
 
     def _interrupt(self, number: int, frame: FrameType | None) -> None:
-        """Note it, too: the exception is lost if it is raised within a callback."""
+        """Set a flag and raise: within a callback, the exception would be lost."""
         again, self._interrupted = self._interrupted, True
-        if number == signal.SIGINT or not again:  # a terminal that ends says so several times
+        if number == signal.SIGINT or not again:  # a closing terminal sends several signals
             raise KeyboardInterrupt
 
     def _write(self, write: Callable[[], None]) -> None:
@@ -145,10 +148,10 @@ class Folder:
 
 
 def make_folder(folder: Path, option: str) -> None:
-    """Make a folder if there is none, and see that files can be made in it.
+    """Make a folder if there is none, and check that it is writable.
 
     Raises:
-        InputError: if they cannot; it names the option.
+        InputError: if it is not; names the option.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -160,7 +163,7 @@ def make_folder(folder: Path, option: str) -> None:
 
 
 def claim(out: Path, settings: Settings, commands: Sequence[str]) -> dict[str, str]:
-    """Note in the folder's `campaign.json` what it is for; return what a report says of it.
+    """Write the campaign's settings to `campaign.json`, or compare; return facts for the report.
 
     Raises:
         InputError: if it cannot be written, or holds a campaign with other settings.

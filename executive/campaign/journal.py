@@ -1,7 +1,7 @@
-"""A campaign's truth on disk: one JSON line for each mission that has ended.
+"""The journal of a campaign: one JSON line for each mission that has ended.
 
-A line is appended in one write when its mission ends, by whichever process ran it, so that whatever
-kills the campaign costs at most the missions under way. The tables are made from it.
+Whichever process ran a mission appends its line in one write when it ends, so that a kill costs at
+most the running missions. The tables are made from the journal.
 """
 
 import csv
@@ -18,12 +18,12 @@ from executive.campaign.rows import misfit, table_of
 from executive.config import KnowledgeSystem
 
 CRASHED = "crashed"
-"""Status of a mission that ended in an exception, beside those of an Outcome."""
+"""Status of a mission that ended in an exception; in addition to those of an Outcome."""
 
 
 @dataclass(frozen=True, slots=True)
 class Key:
-    """Which mission of a campaign."""
+    """Identifies a mission of a campaign."""
 
     policy: str
     home: str
@@ -36,83 +36,83 @@ class Key:
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """How one mission of a campaign went; times in seconds. What is not known is 0 or empty."""
+    """The results of one mission; times in seconds. Unknown values are 0 or empty."""
 
     policy: str
-    """Who says where to look, as `executive.campaign.policies` names it."""
+    """Name of the policy, one of `executive.campaign.policies` or a user's own."""
     home: str
     llm: str
-    """The language model as the settings name it; `none` where none is asked."""
+    """The language model as the settings name it; `none` if none is used."""
     system: str
     defaults: bool
     seed: int
     command: str
     turn: int
-    """Its place in the order of its block's commands, from 0."""
+    """Index among its block's commands."""
     kind: str = ""
     object: str = ""
     status: str = CRASHED
     """done, not_done, not_understood, stopped, or crashed."""
     reason: str = ""
     completed: bool = False
-    """Done by the world's truth, as `truth.py` has it; `status` is what the robot said."""
+    """Whether it was done by the ground truth (`truth.py`); `status` is what the robot said."""
     truth: str = ""
-    """Where the thing truly was when the mission ended: furniture, `hand`, or nowhere."""
+    """Ground truth of the thing's place at the end: furniture, `hand`, or empty."""
     source: str = ""
     location: str = ""
     inquiries: int = 0
     visits: int = 0
     visited: str = ""
-    """Pieces of furniture in the order of the visits, with blanks between."""
+    """The visited furniture, in order, separated by spaces."""
     failed_visits: int = 0
-    """Places that the robot set out for and could not get to, such as those that do not exist."""
+    """Places that the robot could not reach, such as those that do not exist."""
     named: int = 0
-    """Names that the language model wrote in its lists."""
+    """Number of names in the language model's lists."""
     invented: int = 0
-    """Those of them that no room and no furniture of the home goes by."""
+    """Number of these that are no room or furniture of the home."""
     llm_calls: int = 0
     generated_tokens: int = 0
     llm_s: float = 0.0
-    """Wall time inside the language model."""
+    """Wall time of the language model."""
     thinking_time_s: float = 0.0
-    """Mission time from asking the model for places until it has answered."""
+    """Mission time from requests for places to the model until their ends."""
     thought_moving_s: float = 0.0
-    """How much of it the robot used for something else, too."""
+    """The part of it during which the robot did something else, too."""
     driving_s: float = 0.0
     looking_s: float = 0.0
     handling_s: float = 0.0
     mission_time_s: float = 0.0
     wall_time_s: float = 0.0
     search_s: float = 0.0
-    """Of going to places and looking there, until the thing was seen, or again after a miss."""
+    """Mission time of driving to places and looking there, until the thing was seen."""
     cost_s: float = 0.0
-    """The same, and for each question what it costs by the settings."""
+    """`search_s`, plus the cost of each question by the settings."""
     sure: float = 0.0
-    """Before the first look: how likely the likeliest place was thought to be; 0: no plan."""
+    """Probability of the likeliest place before the first look; 0 without a plan."""
     sure_of_it: float = 0.0
-    """The same of the place where the thing truly was."""
+    """The same of the thing's true place."""
     as_likely: int = 1
-    """How many places were as likely as the likeliest; in earlier campaigns nobody counted."""
+    """Number of places as likely as the likeliest; earlier campaigns have the default."""
     path_m: float = 0.0
-    """How far the robot drove."""
+    """Length of the robot's path (metres)."""
     shortest_m: float = 0.0
-    """How far it had to: to the thing, and on to where the command ends."""
+    """Length of the shortest path to the thing and on to the command's end (metres)."""
     model: str = ""
-    """The language model's own name."""
+    """The name that the language model gives itself."""
     run_dir: str = ""
     model_failure: str = ""
-    """Why the language model was of no help; such a mission is no result, and is run again."""
+    """Why the language model did not help; such a mission is not a result, and is run again."""
 
     @property
     def key(self) -> Key:
-        """Which mission it was."""
+        """The key of the mission."""
         system = KnowledgeSystem(self.system)
         where = (self.policy, self.home, self.llm)
         return Key(*where, system, self.defaults, self.seed, self.command)
 
     @property
     def spl(self) -> float:
-        """Success weighted by path length, 0 to 1; of one mission.
+        """Success weighted by path length, in [0, 1], of one mission.
 
         Anderson et al., "On Evaluation of Embodied Navigation Agents", 2018.
         """
@@ -125,25 +125,25 @@ _KINDS: dict[str, type] = get_type_hints(Row)
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """A line of the journal: the row, and what was said between robot and language model."""
+    """A line of the journal: the row, and the dialogue with the language model."""
 
     row: Row
     exchanges: tuple[tuple[str, str], ...] = ()
-    """Inquiry and reply of each call in which the model wrote."""
+    """Request and reply of each chat call."""
 
 
 class Journal(LineFile):
-    """The file with the entries."""
+    """The file with the entries of a campaign."""
 
     def append(self, entry: Entry) -> None:
-        """Add one, as `LineFile.write` does."""
+        """Append an entry, as `LineFile.write` does."""
         self.write(json.dumps({**asdict(entry.row), "exchanges": entry.exchanges}))
 
     def entries(self) -> list[Entry]:
-        """One entry for each mission that has ended, in the order in which they first did.
+        """One entry for each ended mission, in the order of their first entries.
 
-        Of several of one mission the last counts, but one without a working model never in the
-        place of a result. Damaged lines are left out.
+        Of several entries of a mission the last counts, but one without a working model never
+        replaces a result. Damaged lines are left out.
         """
         found: dict[Key, Entry] = {}
         for line in self.lines():
@@ -154,29 +154,29 @@ class Journal(LineFile):
         return list(found.values())
 
     def damage(self) -> list[str]:
-        """A sentence for each line that is no entry."""
+        """A sentence for each line that is not an entry."""
         read = enumerate(map(read_entry, self.lines()), 1)
         return [f"{self.file}:{n}: is not a mission: {e}" for n, e in read if isinstance(e, str)]
 
 
 def read_entry(line: bytes) -> Entry | str:
-    """The entry of a line, or why it is none."""
+    """The entry in a line, or why there is none."""
     try:
         values = json.loads(line)
         exchanges = tuple((str(said), str(reply)) for said, reply in values.pop("exchanges"))
         row = Row(**values)
-        row.key  # noqa: B018  names a system that exists
+        row.key  # noqa: B018  raises ValueError for an unknown system
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
         return f"{type(error).__name__}: {error}"
     return misfit(row, _KINDS) or Entry(row, exchanges)
 
 
 def in_order(rows: Iterable[Row], policies: Sequence[str] = ()) -> list[Row]:
-    """Sorted by what a campaign varies, whatever order the missions ended in.
+    """The rows sorted by what a campaign varies.
 
     Args:
-        rows: of any number of policies.
-        policies: those that come first, in this order.
+        rows: rows of any policies.
+        policies: policies to put first, in this order.
     """
     systems, ranks = list(KnowledgeSystem), {name: rank for rank, name in enumerate(policies)}
 
@@ -189,7 +189,7 @@ def in_order(rows: Iterable[Row], policies: Sequence[str] = ()) -> list[Row]:
 
 
 def _inert(value: object) -> object:
-    """What a spreadsheet does not take for a formula."""
+    """The value, quoted if a spreadsheet would take it for a formula."""
     return f"'{value}" if isinstance(value, str) and value[:1] in tuple("=+-@\t\r") else value
 
 
@@ -199,7 +199,7 @@ def read_table(file: Path) -> list[Row]:
 
 
 def write_tables(rows: Sequence[Row], folder: Path) -> None:
-    """Write `results.csv` and `results.parquet`, one row a mission."""
+    """Write `results.csv` and `results.parquet`, one row per mission."""
     names = [field.name for field in fields(Row)]
     with (folder / "results.csv").open("w", newline="", encoding="utf-8") as stream:
         writer = csv.DictWriter(stream, names)

@@ -1,6 +1,6 @@
-"""All that missions import, whatever their settings: a worker that is forked off has it already.
+"""Imports all that missions need, so that a forked worker process has it already.
 
-What cannot be imported here is told by the mission that needs it.
+An import that fails here is reported by the mission that needs it.
 """
 
 import atexit
@@ -17,4 +17,4 @@ with all_is_kept(), suppress(Exception):
     import sim.manipulation.rrt
     import sim.world
 
-atexit.register(os._exit, 0)  # some libraries complain of what the end of Python finds
+atexit.register(os._exit, 0)  # some libraries print errors when the interpreter shuts down

@@ -1,4 +1,4 @@
-"""What the policies are called, and what each is: for whoever chooses one, before any is loaded."""
+"""Names and descriptions of the policies, separate from these so that they need not be imported."""
 
 from collections.abc import Mapping
 from types import MappingProxyType
@@ -30,4 +30,4 @@ DESCRIPTIONS: Mapping[str, str] = MappingProxyType(
         "person is asked",
     }
 )
-"""By name, in the order in which they are listed."""
+"""Descriptions by name, in the order of `--help`."""

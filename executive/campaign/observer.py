@@ -1,4 +1,4 @@
-"""What a campaign learns of a mission from its records, beyond its outcome."""
+"""Measures a mission from its records, for figures that are not in its outcome."""
 
 from collections import defaultdict
 from collections.abc import Callable
@@ -22,22 +22,22 @@ from sim.navigation.grid import Point
 
 @dataclass
 class Observed:
-    """A sink that counts and adds up."""
+    """A sink that computes figures from records."""
 
     calls: list[Replied | Scored] = field(default_factory=list)
-    """Of the language model, finished."""
+    """Finished calls of the language model."""
     names: list[str] = field(default_factory=list)
-    """What it wrote as names of places."""
+    """Names of places in its replies."""
     unreached: int = 0
-    """Places that the robot could not get to."""
+    """Number of places that the robot could not reach."""
     seconds: defaultdict[str, float] = field(default_factory=lambda: defaultdict(float))
-    """Mission time by activity, as the behaviours declare it."""
+    """Mission time (s) by activity, as the behaviours declare it."""
     searching_s: float = 0.0
-    """Mission time of going to places and looking there, by what the behaviours declare."""
+    """Mission time (s) of driving to places and looking there, as the behaviours declare."""
     planned: Planned | None = None
-    """The last plan before the first look: by all that was believed then."""
+    """The last plan before the first look."""
     positions: list[Point] = field(default_factory=list)
-    """Where the robot's base was, in `map` (metres)."""
+    """Positions of the robot's base in `map` (metres)."""
     _activities: dict[str, str] = field(default_factory=dict)
     _doing: str = ""
     _searches: bool = False
@@ -67,13 +67,13 @@ class Observed:
                 pass
 
     def flush(self) -> None:
-        """Nothing to bring to disk."""
+        """Do nothing."""
 
     def close(self) -> None:
-        """Nothing to close."""
+        """Do nothing."""
 
     def exchanges(self) -> tuple[tuple[str, str], ...]:
-        """Inquiry and reply of each call about places in which the model wrote."""
+        """Request and reply of each chat call about places."""
         return tuple(
             (call.request.messages[-1].content, call.text)
             for call in self.calls
@@ -81,9 +81,11 @@ class Observed:
         )
 
     def believed(self, place: str | None) -> tuple[float, float, int]:
-        """Before the first look: how likely the likeliest place was, and how likely this one.
+        """The belief before the first look; (0, 0, 1) without a plan.
 
-        And how many were as likely as the likeliest. Nothing and one, if nothing was planned.
+        Returns:
+            Probability of the likeliest place, probability of this place, and the number of places
+            as likely as the likeliest.
         """
         told = self.planned
         if told is None or not told.places or place is None:
@@ -93,11 +95,11 @@ class Observed:
         return most, likely.get(place, 0.0), list(likely.values()).count(most)
 
     def path_m(self, leg_m: Callable[[Point, Point], float]) -> float:
-        """How far the robot drove (metres), with the length of each leg between two positions."""
+        """Length of the robot's path (metres); `leg_m` gives the length between two positions."""
         return sum(leg_m(a, b) for a, b in pairwise(self.positions))
 
     def _take_time(self, now_s: float, tick: Tick) -> None:
-        """What was running after the last tick has run until this one; the innermost counts."""
+        """Add the time since the last tick to what was running then; the innermost counts."""
         self.seconds[self._doing] += now_s - self._since_s
         running = (n.path for n in reversed(tick.nodes) if n.status == "RUNNING")
         doing = [a for path in running if (a := self._activities.get(path))]

@@ -1,7 +1,7 @@
-"""Who says where to look: the executive as it is, baselines to compare it with, and ablations.
+"""Policies that decide where to look: the executive as it is, baselines, and ablations.
 
-A policy changes settings, and puts other parts in the place of some: the language model, the
-advice. The tree, the robot and the person are the same for all.
+A policy changes settings, and replaces some parts: the language model, the advice. The tree, the
+robot and the person are the same for all.
 """
 
 from collections.abc import Callable, Mapping
@@ -19,12 +19,12 @@ from executive.config import Settings
 
 @dataclass(frozen=True)
 class Policy:
-    """One of them: a function from parts to parts.
+    """A policy: a function from parts to parts.
 
     Attributes:
-        description: for the person who chooses.
-        settings: what it sets, whatever else was set.
-        change: puts other parts in.
+        description: one line for `--help`.
+        settings: settings that override all others.
+        change: replaces parts.
     """
 
     description: str
@@ -32,27 +32,27 @@ class Policy:
     change: Change = as_they_are
 
     def __call__(self, parts: Parts) -> Parts:
-        """The parts as it has them."""
+        """Replace parts."""
         return self.change(parts)
 
     def applied_to(self, settings: Settings) -> Settings:
-        """The settings of a mission, with those that it sets."""
+        """The settings, overridden by those of the policy."""
         return settings.model_copy(update=dict(self.settings))
 
 
 PAPER = {"search": "paper"}
-"""In the paper's stages, so that only who says where to look differs."""
+"""The paper's stages, so that policies differ only in who says where to look."""
 PLAN = {"search": "plan"}
 BY_RANK = {**PAPER, "llm": "none", "elicit": "rank"}
 BARE = {**PAPER, "llm": "none", "defaults": False}
-"""Neither model nor default locations."""
+"""Without model and default locations."""
 WRITES = {**PAPER, "elicit": "generate", "grammar": False}
 HELD = {**WRITES, "grammar": True}
-"""Written under a schema."""
+"""The model's lists follow a JSON schema."""
 
 
 def baseline(rule: Callable[[Parts], Order]) -> tuple[Mapping[str, Any], Change]:
-    """What goes by a rule instead of a language model."""
+    """Settings and change for a rule instead of a language model."""
     return BY_RANK, lambda parts: ordered(parts, rule)
 
 
@@ -80,12 +80,12 @@ _WAYS: Mapping[str, tuple[Mapping[str, Any], Change]] = {
     "plan-unlearned": (PLAN, lambda parts: replace(parts, experience=None)),
     "always-asks": (BARE, as_they_are),
 }
-"""What each sets and puts in."""
+"""Settings and change of each policy."""
 
 POLICIES: Mapping[str, Policy] = MappingProxyType(
     {name: Policy(says, *_WAYS[name]) for name, says in DESCRIPTIONS.items()}
 )
-"""By name."""
+"""Our policies by name."""
 
 RIGHT = (
     "name a Policy, or a function that takes Parts and returns Parts (docs/examples/own_policy.py)"
@@ -93,10 +93,10 @@ RIGHT = (
 
 
 def policy_named(name: str) -> Policy:
-    """One of ours, or one of somebody's own by `package.module:function`.
+    """One of our policies, or a user's own by `package.module:function`.
 
     Raises:
-        InputError: if one of somebody's own cannot be imported; when it is called, if it fails.
+        InputError: if a user's own cannot be imported; later, when it is called, if it fails.
     """
     if name in POLICIES:
         return POLICIES[name]

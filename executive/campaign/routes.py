@@ -1,4 +1,4 @@
-"""How far it is from here to there for the robot, by the map of one home."""
+"""Shortest paths of the robot in the map of a home."""
 
 from collections.abc import Iterable
 from functools import cache, cached_property
@@ -14,7 +14,7 @@ from sim.navigation.grid import OccupancyGrid, Point, Reach, Unreachable
 
 
 class Lengths(OccupancyGrid):
-    """A grid on which a metre costs a metre, however tight it is: the cheapest way is shortest."""
+    """A grid where narrow passages cost nothing extra: the cheapest path is the shortest."""
 
     @cached_property
     def price(self) -> Floats:
@@ -23,30 +23,30 @@ class Lengths(OccupancyGrid):
 
 
 class Routes:
-    """Shortest ways in a home."""
+    """Shortest paths in a home."""
 
     def __init__(self, home: Home) -> None:
-        """Draw up the map."""
+        """Compute the occupancy grid."""
         self._home = home
         self._grid = Lengths.from_home(home)
         self._known: dict[tuple[Point, Point], float] = {}
         self._reach: tuple[Point, Reach | None] | None = None
 
     def stand(self, place: str) -> Point:
-        """Where the robot stands to use a piece of furniture, or to talk to the `person`."""
+        """Position in `map` where the robot stands at a piece of furniture, or at the `person`."""
         x, y, _ = self._home.stand(place)
         return x, y
 
     def length(self, start: Point, goal: Point) -> float:
-        """Length of the shortest way (metres); infinite if there is none."""
+        """Length of the shortest path (metres); infinite if there is none."""
         if (start, goal) not in self._known:
             self._known[start, goal] = self._measure(start, goal)
         return self._known[start, goal]
 
     def nearest(self, start: Point, places: Iterable[str]) -> str:
-        """The furniture with the shortest way from here; of equals the first.
+        """The furniture with the shortest path from here; of equals the first.
 
-        No way is shorter than the straight line: what is farther off than that is not measured.
+        No path is shorter than the straight line, so farther places are not measured.
         """
         by_line = sorted(
             (dist(start, self.stand(place)), number, place) for number, place in enumerate(places)
@@ -59,7 +59,7 @@ class Routes:
         return best[2]
 
     def tour(self, points: tuple[Point, ...]) -> float:
-        """Length of the shortest way through these points, in this order (metres)."""
+        """Length of the shortest path through these points, in order (metres)."""
         return sum(self.length(a, b) for a, b in pairwise(points))
 
     def _measure(self, start: Point, goal: Point) -> float:
@@ -68,7 +68,7 @@ class Routes:
         return sum(dist(a, b) for a, b in pairwise(way)) if way else inf
 
     def _reach_from(self, start: Point) -> Reach | None:
-        """All that can be reached from here; only the last is kept, for each is large."""
+        """All that is reachable from here; only the last result is cached, since each is large."""
         if self._reach is None or self._reach[0] != start:
             try:
                 self._reach = start, Reach.of(self._grid, start)
@@ -79,12 +79,12 @@ class Routes:
 
 @cache
 def routes_in(home: str) -> Routes:
-    """The routes of a home, by its name or file; drawn up once in a process."""
+    """The routes of a home, by its name or file; cached."""
     return Routes(load_home(home))
 
 
 def routes_of(home: Home) -> Routes:
-    """The routes of this home, wherever its things are; drawn up once in a process."""
+    """The routes of this home, wherever its things are; cached."""
     key = home.model_dump_json(exclude={"objects"})
     if key not in _drawn_up:
         _drawn_up[key] = Routes(home)

@@ -1,4 +1,4 @@
-"""Dataclasses as rows of a table: which values a column takes, and the table of them."""
+"""Tables of dataclasses: validation of values, and conversion to Arrow."""
 
 from collections.abc import Iterable
 from dataclasses import asdict
@@ -21,11 +21,11 @@ _COLUMNS: dict[object, pa.DataType] = {
 
 
 def misfit(row: Any, kinds: dict[str, type]) -> str:
-    """Which value of a row no column of its kind takes, and what it is; empty if all fit.
+    """Which value of a row does not fit its column, in words; empty if all fit.
 
     Args:
         row: a dataclass's instance.
-        kinds: of its fields, each `str`, `bool`, `int` or `float`.
+        kinds: types of its fields: `str`, `bool`, `int` or `float`.
     """
     values = ((name, getattr(row, name), kind) for name, kind in kinds.items())
     wrong = ((name, value) for name, value, kind in values if not _fits(value, kind))
@@ -33,13 +33,13 @@ def misfit(row: Any, kinds: dict[str, type]) -> str:
 
 
 def table_of(kind: type, rows: Iterable[Any]) -> pa.Table:
-    """A column for each field of the dataclass, whether there are rows or not."""
+    """A table with a column for each field of the dataclass, also without rows."""
     schema = pa.schema([(name, _COLUMNS[hint]) for name, hint in get_type_hints(kind).items()])
     return pa.Table.from_pylist([asdict(row) for row in rows], schema=schema)
 
 
 def _fits(value: object, kind: type) -> bool:
-    """Whether a table can hold it: text of whole characters, numbers of 64 bits."""
+    """Whether a table can hold the value: valid UTF-8, numbers of 64 bits."""
     match value:
         case str():
             return kind is str and writable(value) == value

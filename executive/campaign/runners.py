@@ -1,6 +1,6 @@
-"""Who runs the missions of a campaign: this process, a pool of them, or the workers of a cluster.
+"""Runners of a campaign's missions: this process, a process pool, or a cluster.
 
-A runner is given what is left to do, and appends each mission to the journal when it has ended.
+A runner appends each mission to the journal when it ends.
 """
 
 import sys
@@ -15,44 +15,44 @@ from executive.errors import ExecutiveError
 from executive.shell import leave_stopping_to_the_parent
 
 POLL_S = 0.5
-"""How often the journal is looked at while workers write it."""
+"""How often (s) to check on the workers."""
 
 
 class Unit(Protocol):
-    """Missions that one process runs one after the other: a block, or a household's life."""
+    """Missions that one process runs one after the other: a block, or a household."""
 
     def run(self, before: Sequence[Any]) -> Iterator[Any]:
-        """An entry for each mission that is not in `before`, as it ends."""
+        """Run the missions that are not in `before`; yield an entry as each ends."""
         ...
 
 
 class Kept(Protocol):
-    """A file of entries, to which any number of processes append."""
+    """A file of entries, to which several processes append."""
 
     @property
     def size(self) -> int:
-        """Bytes so far."""
+        """Size in bytes."""
         ...
 
     def entries(self) -> Sequence[Any]:
-        """Those of all missions that have ended."""
+        """The entries of all missions that have ended."""
         ...
 
     def append(self, entry: Any) -> None:
-        """Add one."""
+        """Append an entry."""
         ...
 
 
 class Runner(Protocol):
-    """Runs missions; a KeyboardInterrupt ends it when the missions under way have ended."""
+    """Runs missions; on KeyboardInterrupt, it ends when the running missions have ended."""
 
     def run(self, campaign: Sequence[Any], journal: Any, progress: Callable[[], None]) -> None:
-        """Run every mission that is not in the journal; call `progress` now and then."""
+        """Run all missions that are not in the journal; call `progress` regularly."""
         ...
 
 
 class InProcess:
-    """This process, one mission after the other."""
+    """Runs missions in this process, one after the other."""
 
     def run(self, campaign: Sequence[Unit], journal: Kept, progress: Callable[[], None]) -> None:
         """Run what is left."""
@@ -64,18 +64,18 @@ class InProcess:
 
 
 class ProcessPool:
-    """Worker processes on this machine, each with one block at a time."""
+    """Runs missions in worker processes on this machine, each with one block at a time."""
 
     def __init__(self, workers: int, interrupted: Callable[[], bool]) -> None:
-        """Use so many; `interrupted` tells whether Ctrl-C was pressed.
+        """Use this many workers; `interrupted` says whether Ctrl-C was pressed.
 
-        The exception alone does not do: it is lost if it is raised within a callback.
+        The exception is not enough: it is lost if it is raised within a callback.
         """
         self._workers = workers
         self._interrupted = interrupted
 
     def run(self, campaign: Sequence[Unit], journal: Kept, progress: Callable[[], None]) -> None:
-        """Run what is left; if a worker is killed, go on with the rest.
+        """Run the remaining missions; if a worker is killed, go on with the rest.
 
         Raises:
             ExecutiveError: if workers die without any mission ending in between.
@@ -85,7 +85,7 @@ class ProcessPool:
             try:
                 return self._run(campaign, journal, progress)
             except BrokenProcessPool:
-                if self._interrupted():  # it reached a worker that was still starting
+                if self._interrupted():  # the signal killed a worker that was still starting
                     raise KeyboardInterrupt from None
                 if journal.size == written:
                     raise ExecutiveError(
@@ -118,7 +118,7 @@ class ProcessPool:
 
 
 def on_this_machine(workers: int, interrupted: Callable[[], bool]) -> Runner:
-    """This process, or a pool of so many."""
+    """A runner in this process, or, for several workers, a pool."""
     return InProcess() if workers == 1 else ProcessPool(workers, interrupted)
 
 
@@ -128,14 +128,14 @@ _stop: Event | None = None
 
 
 def start_worker(stop: Event) -> None:
-    """Leave Ctrl-C to the parent, which sets `stop`."""
+    """Ignore Ctrl-C: the parent handles it, and sets `stop`."""
     global _stop
     _stop = stop
     leave_stopping_to_the_parent()
 
 
 def work(unit: Unit, before: Sequence[Any], journal: Kept) -> None:
-    """Run missions until they end or all shall stop."""
+    """Run missions until all have ended or `stop` is set."""
     if _stop and _stop.is_set():
         return
     for entry in unit.run(before):

@@ -1,4 +1,4 @@
-"""A language model whose thinking takes no mission time, so that no machine is too slow for it."""
+"""A language model that takes no mission time, so that results do not depend on the machine."""
 
 from executive.computing import Computation, GivenUpError, Worker, still_wanted
 from executive.events import Ended, Inbox
@@ -7,17 +7,17 @@ from executive.types.llm import ChatRequest, RankRequest
 from executive.types.results import Result, Scored
 
 POLL_S = 0.2
-"""How often it is looked whether anybody still wants to know (real seconds)."""
+"""How often to check whether the request was dropped (real seconds)."""
 
 _known: dict[tuple[str, RankRequest], Scored] = {}
-"""Rankings of this process, by model and request: a ranking has no chance in it."""
+"""Cache of rankings, by model and request: a ranking is deterministic."""
 
 
 class Timeless:
-    """Implements `LanguageModel` around one: mission time stands still while that one thinks."""
+    """Implements `LanguageModel` around another one, during which mission time stands still."""
 
     def __init__(self, model: LanguageModel, within: Inbox, inbox: Inbox) -> None:
-        """Ask `model`, which ends its requests in the inbox `within`; end ours in `inbox`."""
+        """Wrap `model`, which ends its requests in the inbox `within`; ours end in `inbox`."""
         self._model = model
         self._within = within
         self._inbox = inbox
@@ -27,11 +27,11 @@ class Timeless:
         self.can_rank = model.can_rank
 
     def chat(self, request: ChatRequest) -> int:
-        """Write a reply; ends Replied, or Failed."""
+        """Start to write a reply; ends Replied, or Failed."""
         return self._ask(request)
 
     def rank(self, request: RankRequest) -> int:
-        """Score the options; ends Scored, or Failed. What was scored before, is known."""
+        """Start to score the options; ends Scored, or Failed. Results are cached."""
         if scored := _known.get((self.name, request)):
             number = self._inbox.open()
             self._inbox.end(number, scored)
@@ -39,14 +39,14 @@ class Timeless:
         return self._ask(request)
 
     def prepare(self, request: ChatRequest | RankRequest) -> None:
-        """Nothing: it need not be fast."""
+        """Do nothing: it need not be fast."""
 
     def cancel(self, request: int) -> None:
-        """Forget the request; what is being thought, is thought to its end."""
+        """Drop the request, and abandon its computation."""
         self._inbox.drop(request)
 
     def count_tokens(self, text: str) -> int:
-        """By the model's tokenizer."""
+        """Length of a text in tokens, by the model's tokenizer."""
         return self._model.count_tokens(text)
 
     def close(self) -> None:
@@ -64,7 +64,7 @@ class Timeless:
         return number
 
     def _think(self, request: ChatRequest | RankRequest) -> Result:
-        """Have the model answer, and wait for it; on the worker's thread."""
+        """Ask the model and wait for the result; called on the worker's thread."""
         if isinstance(request, RankRequest):
             number = self._model.rank(request)
         else:

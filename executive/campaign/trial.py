@@ -1,4 +1,4 @@
-"""Whether policies are any: found out at once, and not when it is their turn after hours."""
+"""Tries policies out at the start of a campaign, and not when it is their turn after hours."""
 
 import io
 from collections.abc import Mapping
@@ -9,13 +9,13 @@ from executive.config import Settings
 
 
 def try_policies(used: Mapping[str, Settings]) -> None:
-    """Have each policy of somebody's own make parts once, before missions go by it for hours.
+    """Let each policy of a user's own make parts once.
 
     Args:
-        used: by the name of each policy, settings that it will be called with.
+        used: for the name of each policy, settings to call it with.
 
     Raises:
-        ExecutiveError: if one cannot be imported or fails, or the settings are wrong.
+        ExecutiveError: if a policy cannot be imported or fails, or the settings are wrong.
     """
     for name, settings in used.items():
         if name not in POLICIES:

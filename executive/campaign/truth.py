@@ -1,4 +1,4 @@
-"""What truly came of a mission, by the simulator; the robot has no access to it."""
+"""Judges missions by the simulator's ground truth, to which the robot has no access."""
 
 from collections.abc import Callable, Iterable, Iterator
 
@@ -16,11 +16,11 @@ def whereabouts(name: str, world: SimulatedHome) -> str:
 
 
 def completed(outcome: Outcome, where: Callable[[str], str]) -> bool:
-    """Whether the robot said that it was done, all of it, and it was.
+    """Whether the robot said that all of the mission was done, and that is true.
 
     Args:
-        outcome: what the robot says.
-        where: tells where a thing is, as `whereabouts` does, when the mission has ended.
+        outcome: the outcome that the robot gives.
+        where: returns where a thing is after the mission, as `whereabouts` does.
     """
     if outcome.status != MissionStatus.DONE or outcome.kind is None:
         return False
@@ -33,7 +33,7 @@ def completed(outcome: Outcome, where: Callable[[str], str]) -> bool:
 
 
 def _with_parts(tasks: Iterable[TaskOutcome]) -> Iterator[TaskOutcome]:
-    """Each task, or the parts of it if it was done so."""
+    """Each task, or its parts if it has any."""
     for task in tasks:
         if task.parts:
             yield from _with_parts(task.parts)
@@ -42,9 +42,9 @@ def _with_parts(tasks: Iterable[TaskOutcome]) -> Iterator[TaskOutcome]:
 
 
 def _undone(task: TaskOutcome, later: Iterable[TaskOutcome]) -> bool:
-    """Whether what a task came to is not to be seen in the end, because more was done since.
+    """Whether later tasks have undone the result of a task.
 
-    That is so if it was with the same thing, or if the hand that held it had to be free.
+    They have if they moved the same thing, or needed the hand that held it.
     """
     in_hand = task.kind.means.grasps and not task.kind.means.carries
     return any(
@@ -55,12 +55,12 @@ def _undone(task: TaskOutcome, later: Iterable[TaskOutcome]) -> bool:
 
 
 def shortest_m(outcome: Outcome, home: Home, routes: Routes) -> float:
-    """How far the robot has to drive if it knows where the thing is; 0 for no such thing (metres).
+    """The shortest path (metres) of a robot that knows where the thing is; 0 without a thing.
 
     Args:
-        outcome: says what was asked for.
-        home: as it was at the start.
-        routes: of this home.
+        outcome: the outcome, with the command.
+        home: the home as it was at the start.
+        routes: the routes of this home.
     """
     place = home.placement.get(outcome.object or "")
     if place is None:

@@ -1,6 +1,6 @@
-"""Worker processes are forked off one process that has loaded all that missions import.
+"""Starts worker processes as forks of one process that has imported all that missions need.
 
-It takes next to nothing to import this, so that the loading begins before that of the rest.
+This module is quick to import, so that the imports there begin before ours.
 """
 
 import os
@@ -12,13 +12,13 @@ from multiprocessing import get_context, set_forkserver_preload
 from multiprocessing.context import BaseContext
 
 LOADED = "executive.campaign.loaded"
-"""What is imported before a worker is forked off; no thread of ours runs in it."""
+"""The module that is imported before workers are forked; it starts no thread."""
 FORKS = sys.platform != "darwin"
-"""On macOS the system's own libraries may have threads, which no fork survives."""
+"""On macOS, system libraries may start threads, which makes forking unsafe."""
 
 
 def start_loading() -> BaseContext:
-    """How workers are made; the process that they are forked off begins to load, if it has not."""
+    """Start the process from which workers are forked; return the multiprocessing context."""
     if not FORKS:
         return get_context("spawn")
     from multiprocessing import forkserver  # not for --help
@@ -31,7 +31,7 @@ def start_loading() -> BaseContext:
 
 @contextmanager
 def _stop_signals_held() -> Iterator[None]:
-    """What is started meanwhile never hears those that a terminal sends to all; we do, later."""
+    """Block the terminal's signals inside the block: processes started there inherit that."""
     before = signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGINT, signal.SIGHUP))
     try:
         yield
@@ -41,7 +41,7 @@ def _stop_signals_held() -> Iterator[None]:
 
 @contextmanager
 def _importing_as_here() -> Iterator[None]:
-    """What is started meanwhile imports from where we do, and from nowhere before that."""
+    """Let processes started inside the block import from the same paths as this one."""
     path = os.pathsep.join(map(os.path.abspath, sys.path))
     ours = {"PYTHONSAFEPATH": "1", "PYTHONPATH": path}
     before = {name: os.environ[name] for name in ours if name in os.environ}

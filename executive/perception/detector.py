@@ -1,4 +1,4 @@
-"""A learned detector: an ONNX file with an output like those of YOLO, run by OpenCV."""
+"""A learned detector: a network of the YOLO family in an ONNX file, run by OpenCV."""
 
 import ast
 import logging
@@ -25,26 +25,26 @@ log = logging.getLogger(__name__)
 LEARNED = Path(__file__).parent / "assets" / "detector.onnx"
 """Our own, trained by `python -m sim.learning`; see docs/detector.md."""
 LEAST_CONFIDENCE = 0.25
-"""Below this, nothing is reported at all."""
+"""Detections below this confidence are not reported."""
 MOST_OVERLAP = 0.5
-"""Of two boxes of one class that overlap more (IoU), the less sure one goes."""
+"""IoU above which, of two boxes of one class, the one with less confidence is dropped."""
 OPEN_SIDE = 640
-"""Side of the pictures for a network that takes any."""
+"""Side of the input (pixels) for a network that takes any size."""
 GREY = 114
-"""What letterboxing fills up with, as these networks were trained with."""
+"""The fill colour of letterboxing with which these networks were trained."""
 _FEWEST_PIXELS = 2
 _MOST_BOXES = 2000
-"""So many of the surest boxes are looked at."""
+"""The largest number of boxes kept, those with the highest confidence."""
 _MOST_CLASSES = 10_000
 _LONGEST_LIST = 1_000_000
 _LONGEST_WARNING = 2000
 _UNIT = 1.5
-"""Boxes that reach no farther are shares of the picture, not pixels."""
+"""If no coordinate is above this, boxes are in shares of the picture, not pixels."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Found:
-    """What a network says of one picture, in its pixels, surest first.
+    """A network's detections in one picture, in its pixels, the highest confidence first.
 
     Attributes:
         boxes: (n, 4): left, top, right, bottom.
@@ -74,11 +74,11 @@ class OnnxDetector:
 
         Args:
             path: the ONNX file.
-            objects_named: what the ontology calls a class of the list, if it knows it.
-            threads: of OpenCV in this process; None: as many as it likes.
+            objects_named: the ontology's objects for the name of a class.
+            threads: number of OpenCV's threads in this process; None: OpenCV's default.
 
         Raises:
-            InputError: if the file or its class list is not what it should be.
+            InputError: if the file or its class list is wrong.
         """
         if threads is not None:
             cv2.setNumThreads(threads)
@@ -97,7 +97,7 @@ class OnnxDetector:
         self._learn_layout(about.metadata)
 
     def detect(self, frame: Frame) -> tuple[Detection, ...]:
-        """All things in the picture that the ontology knows, surest first, masked by depth."""
+        """All known objects in the picture, highest confidence first, with masks from depth."""
         found = self.find(frame.color)
         return tuple(
             Detection(label, float(score), box, segment(frame, box))
@@ -106,7 +106,7 @@ class OnnxDetector:
         )
 
     def find(self, color: NDArray[np.uint8], least: float = LEAST_CONFIDENCE) -> Found:
-        """Everything in a picture (h, w, 3; RGB) of at least this confidence, without masks."""
+        """All detections in a picture (h, w, 3; RGB) of at least this confidence, without masks."""
         picture, scale, (left, top) = letterbox(color, self._height, self._width)
         rows = self._layout.rows(self._run(picture), str(self._path))
         boxes = surest(read(rows, self._layout, len(self._names)), least)
@@ -123,11 +123,11 @@ class OnnxDetector:
 
     @property
     def labels(self) -> frozenset[str]:
-        """What it may call what it sees: objects of the ontology."""
+        """The labels that detections may have: objects of the ontology."""
         return frozenset(label for label in self._labels if label)
 
     def _learn_layout(self, metadata: Mapping[str, str]) -> None:
-        """See by two pictures how the output is to be read."""
+        """Find the layout of the output by running the network on two pictures."""
         where, classes = str(self._path), len(self._names)
         for picture in reversed(pictures(self._height, self._width)):
             outputs = self._run(picture)
@@ -135,7 +135,7 @@ class OnnxDetector:
             check_probabilities(self._layout.rows(outputs, where), self._layout, classes, where)
 
     def _run(self, picture: NDArray[np.uint8]) -> list[Floats32]:
-        """All outputs."""
+        """Run the network; return all outputs."""
         try:
             return run(self._network, picture, self._takes_bytes)
         except cv2.error as error:
@@ -148,7 +148,7 @@ def class_list(path: Path, metadata: Mapping[str, str]) -> tuple[str, ...]:
     """The names of the network's classes, from a file beside it or from its metadata.
 
     Raises:
-        InputError: if there is no class list, or it is not a list of names.
+        InputError: if there is no class list, or it is malformed.
     """
     right = f"put a name a line into {path.with_suffix('.names')}"
     for beside in (path.with_suffix(".names"), path.with_suffix(".txt")):
@@ -186,7 +186,7 @@ def class_list(path: Path, metadata: Mapping[str, str]) -> tuple[str, ...]:
 def _labels(
     path: Path, names: Sequence[str], objects_named: Callable[[str], Sequence[str]]
 ) -> tuple[str | None, ...]:
-    """What the ontology calls each class; None for those that it does not know as one object."""
+    """The ontology's object for each class; None if there is none, or more than one."""
     known = [objects_named(name) for name in names]
     labels = tuple(objects[0] if len(objects) == 1 else None for objects in known)
     unknown = [name for name, label in zip(names, labels, strict=True) if label is None]
@@ -207,7 +207,7 @@ def _labels(
 def letterbox(
     color: NDArray[np.uint8], height: int, width: int
 ) -> tuple[NDArray[np.uint8], float, tuple[int, int]]:
-    """The picture fitted into (height, width), its scale, and its left and top edge there."""
+    """Fit the picture into (height, width); return it, its scale, and its left and top offset."""
     rows, columns = color.shape[:2]
     scale = min(height / rows, width / columns)
     size = (round(columns * scale), round(rows * scale))
@@ -219,7 +219,7 @@ def letterbox(
 
 
 def surest(boxes: Boxes, least: float) -> Boxes:
-    """Those of at least this confidence, surest first, and not more than anyone can look at."""
+    """The boxes of at least this confidence, highest first, at most `_MOST_BOXES`."""
     order = np.argsort(-boxes.scores, kind="stable")[:_MOST_BOXES]
     order = order[boxes.scores[order] >= least]
     scores = boxes.scores[order].clip(0.0, 1.0)
@@ -227,7 +227,7 @@ def surest(boxes: Boxes, least: float) -> Boxes:
 
 
 def suppress(boxes: Boxes, least: float) -> Boxes:
-    """Without those that overlap a surer one of the same class."""
+    """Non-maximum suppression, class by class."""
     sides = boxes.corners[:, 2:] - boxes.corners[:, :2]
     kept = cv2.dnn.NMSBoxesBatched(
         np.concatenate((boxes.corners[:, :2], sides), axis=1).tolist(),
@@ -241,7 +241,7 @@ def suppress(boxes: Boxes, least: float) -> Boxes:
 
 
 def _whole_pixels(edges: Floats32, frame: Frame) -> Box | None:
-    """The box in whole pixels within the picture; None if nothing is left of it."""
+    """The box in whole pixels, clipped to the picture; None if nothing is left of it."""
     height, width = frame.color.shape[:2]
     left, top = np.floor(np.clip(edges[:2], 0, (width, height))).astype(int).tolist()
     right, bottom = np.ceil(np.clip(edges[2:], 0, (width, height))).astype(int).tolist()

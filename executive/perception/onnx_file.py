@@ -1,6 +1,6 @@
-"""What an ONNX file says about itself: the pictures that it takes, its metadata, what it refers to.
+"""Reads and validates the header of an ONNX file: its input, its metadata, its weights' location.
 
-Only the fields needed are declared, after onnx.proto; protobuf steps over all others.
+Only the needed fields are declared, after onnx.proto; protobuf skips all others.
 """
 
 from collections.abc import Iterator, Mapping
@@ -17,13 +17,13 @@ from executive.errors import InputError
 from executive.files import read_bytes
 
 MOST_BYTES = 512 * 2**20
-"""The largest networks of this kind have half of that."""
+"""The largest file: the largest networks of this kind have half of that."""
 LONGEST_SIDE = 4096
-"""Of the pictures that a network takes."""
+"""The longest side of a network's input (pixels)."""
 MOST_WEIGHTS = 2**28
-"""Numbers in one tensor of a file."""
+"""The largest number of elements in one tensor of a file."""
 _EXTERNAL = 1
-"""`data_location` of weights that are in another file."""
+"""The `data_location` of weights in another file."""
 
 _FIELDS: dict[str, tuple[tuple[str, int, str, bool], ...]] = {
     "Model": (
@@ -61,7 +61,7 @@ _FIELDS: dict[str, tuple[tuple[str, int, str, bool], ...]] = {
     "Shape": (("dim", 1, "Dimension", True),),
     "Dimension": (("dim_value", 1, "int64", False),),
 }
-"""Message -> its fields: name, number, type, and whether there may be several."""
+"""Message -> its fields: name, number, type, and whether it is repeated."""
 
 FLOAT, UINT8, FLOAT16 = 1, 2, 10
 _KINDS = {FLOAT: "float", UINT8: "uint8", FLOAT16: "float16"}
@@ -69,13 +69,13 @@ _KINDS = {FLOAT: "float", UINT8: "uint8", FLOAT16: "float16"}
 
 @dataclass(frozen=True, slots=True)
 class OnnxFile:
-    """What the file says.
+    """The header of an ONNX file.
 
     Attributes:
-        height: of the pictures that it takes; 0 where left open.
-        width: likewise.
-        takes_bytes: whether it takes colours from 0 to 255, not from 0 to 1.
-        metadata: its own words, such as `names` of Ultralytics' exports.
+        height: of its input (pixels); 0 if any.
+        width: of its input (pixels); 0 if any.
+        takes_bytes: whether its input has colours from 0 to 255, not from 0 to 1.
+        metadata: its metadata, such as `names` in exports of Ultralytics.
         content: the whole file.
     """
 
@@ -87,11 +87,11 @@ class OnnxFile:
 
 
 def read_onnx(path: Path) -> OnnxFile:
-    """Read what the file says about itself.
+    """Read and validate the header of an ONNX file.
 
     Raises:
-        InputError: if it cannot be read, is no ONNX file, takes no pictures, is of absurd size, or
-            refers to another file.
+        InputError: if it cannot be read, is not an ONNX file, does not take a picture, is too
+            large, or refers to another file.
     """
     where = str(path)
     content = read_bytes(
@@ -120,7 +120,7 @@ def read_onnx(path: Path) -> OnnxFile:
 
 
 def _picture(where: str, graph: Any) -> Any:
-    """The type of the one input that is no weight."""
+    """The type of the only input that is not a weight."""
     weights = {tensor.name for tensor in graph.initializer}
     inputs = [value.type.tensor_type for value in graph.input if value.name not in weights]
     shapes = [_lengths(one) for one in inputs]
@@ -132,7 +132,7 @@ def _picture(where: str, graph: Any) -> Any:
 
 
 def _lengths(tensor: Any) -> list[int]:
-    """Those of an input; 0 for any, which some exporters write as -1."""
+    """The shape of an input; 0 for any length, which some exporters write as -1."""
     return [0 if d.dim_value == -1 else d.dim_value for d in tensor.shape.dim]
 
 

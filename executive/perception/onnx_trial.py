@@ -1,7 +1,7 @@
-"""A network from outside is run in a process of its own first.
+"""Tries out a network from outside in a process of its own.
 
-One on which OpenCV breaks down would take the robot's process with it. This file is the program of
-that process, too: it reads the network from standard input, runs it on two pictures, and says on
+A network that crashes OpenCV would crash the robot's process, too. This file is also the program of
+the other process: it reads the network from standard input, runs it on two pictures, and writes to
 standard output what went wrong.
 """
 
@@ -20,9 +20,9 @@ from numpy.typing import NDArray
 MOST_MEMORY = 8 * 2**30
 LONGEST_S = 60.0
 MOST_NUMBERS = 50_000_000
-"""In the outputs for one picture."""
+"""The largest number of elements in the outputs for one picture."""
 _LACKS = re.compile(r"""Can't create layer .* of type "([^"]+)\"""")
-"""How OpenCV says that it does not know an operation."""
+"""OpenCV's message about an unknown operation."""
 
 _tried: dict[tuple[bytes, int, int, bool], str] = {}
 
@@ -53,12 +53,12 @@ def _run_elsewhere(content: bytes, height: int, width: int, takes_bytes: bool) -
 
 
 def _is_ours(name: str) -> bool:
-    """Whether a variable of the environment is a setting of ours, such as a key: not for others."""
+    """Whether an environment variable is ours: it may be a secret, and is not passed on."""
     return name.startswith("EXECUTIVE_")
 
 
 def network(content: bytes) -> cv2.dnn.Net:
-    """The network of a file.
+    """Load a network from the content of a file.
 
     Raises:
         cv2.error: if OpenCV cannot read it.
@@ -69,7 +69,7 @@ def network(content: bytes) -> cv2.dnn.Net:
 def run(
     net: cv2.dnn.Net, picture: NDArray[np.uint8], takes_bytes: bool
 ) -> list[NDArray[np.float32]]:
-    """The outputs for a picture (h, w, 3).
+    """Run a network on a picture (h, w, 3); return all outputs.
 
     Raises:
         cv2.error: if OpenCV cannot run it.
@@ -83,13 +83,13 @@ def run(
 
 
 def pictures(height: int, width: int) -> tuple[NDArray[np.uint8], ...]:
-    """One black, one of noise: what a network is tried with."""
+    """The pictures (height, width, 3) to try a network with: one black, one of noise."""
     noise = np.random.default_rng(0).integers(0, 256, (height, width, 3), np.uint8)
     return np.zeros_like(noise), noise
 
 
 def main() -> None:
-    """Try the network."""
+    """Try the network on standard input."""
     height, width, kind = sys.argv[1:]
     resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))

@@ -1,4 +1,4 @@
-"""From pictures to things in the map: pure functions over arrays, and what uses them."""
+"""From camera frames to objects located in `map`."""
 
 import logging
 import traceback
@@ -22,14 +22,14 @@ from executive.types.results import Failed, Saw
 log = logging.getLogger(__name__)
 
 _EDGE_PIXELS = 3
-"""A detection this near to the edge of the picture may go on beyond it."""
+"""A detection this near to the edge of the picture may continue outside."""
 
 
 class CameraPerception:
-    """A camera and a detector: takes a picture, recognises, and finds where things are by depth.
+    """Implements `Perception`: takes a picture, detects objects, and locates them by depth.
 
-    The picture is taken within `see`, unless the camera is far away. What takes longer is computed
-    meanwhile nothing moves, and so is a picture whose pixels are still coming.
+    The picture is taken within `see`, unless the camera is `far`. Detection, and waiting for pixels
+    that are still being rendered, is a computation, during which mission time stands still.
     """
 
     def __init__(
@@ -40,7 +40,7 @@ class CameraPerception:
         recorder: Recorder,
         far: bool = False,
     ) -> None:
-        """Look through `camera` with `detector`; a `far` one's pictures take their time to come."""
+        """Join camera and detector; `far` if taking a picture is slow, as over a network."""
         self._far = far
         self._camera = camera
         self._detector = detector
@@ -49,7 +49,7 @@ class CameraPerception:
         self._worker = Worker("eyes")
 
     def see(self) -> int:
-        """Take a picture and recognise; ends Saw, or Failed if either did or all is black."""
+        """Take a picture and detect; ends Saw, or Failed if either fails or all is black."""
         request = self._inbox.open()
         if self._far:
             take = partial(self._take, request)
@@ -69,7 +69,7 @@ class CameraPerception:
         return request
 
     def _come(self, request: int, frame: Frame, pixels: Computation[object]) -> None:
-        """A picture's pixels are there; if they never will be, another is taken, with no wait."""
+        """The pixels of a picture have come; if that failed, take another one at once."""
         try:
             pixels.result()
         except Exception as error:
@@ -83,7 +83,7 @@ class CameraPerception:
         self._look_at(request, frame)
 
     def _take(self, request: int, computation: Computation[Frame]) -> None:
-        """A picture has come from afar."""
+        """A picture of a `far` camera has come."""
         try:
             frame = computation.result()
         except Exception as error:
@@ -100,7 +100,7 @@ class CameraPerception:
         self._inbox.compute(self._worker, partial(self._recognise, frame), say, request)
 
     def cancel(self, request: int) -> None:
-        """Forget the picture."""
+        """Cancel the request; its result is not delivered."""
         self._inbox.drop(request)
 
     def _recognise(self, frame: Frame) -> tuple[Detection, ...]:
@@ -125,10 +125,10 @@ class CameraPerception:
 
 
 def locate(detection: Detection, frame: Frame) -> Detection:
-    """The detection with its visible surface in `map`.
+    """Add the visible surface in `map` to a detection.
 
-    Pixels at the rim of the mask mix the thing with what is behind it, so the mask is shrunk by one
-    pixel where enough is left.
+    Pixels at the edge of the mask mix the thing with the background, so the mask is eroded by one
+    pixel if enough is left.
     """
     box = detection.box
     mask = detection.mask

@@ -1,7 +1,7 @@
-"""Which pixels of a box are the thing: found in the depth, since a detector's box has no mask.
+"""Segments the object in a detector's box by depth.
 
-In `map`, where z is up: what the thing stands on is level and lies below it, what is behind or
-beside it is apart from it. Pure functions over arrays.
+In `map`, where z is up, the support of the object is level and below it, and what is behind or
+beside it is separated from it. Pure functions of arrays.
 """
 
 from dataclasses import dataclass
@@ -17,34 +17,34 @@ from executive.types.perception import Box, Frame
 Mask = NDArray[np.bool_]
 
 AROUND = 0.25
-"""How much more than the box is looked at, for what the thing stands on (share of its sides)."""
+"""Margin around the box in which to look for the support (share of the box's sides)."""
 LEAST_AROUND = 8
-"""The same in pixels, at least."""
+"""The smallest such margin in pixels."""
 LEVEL = 0.97
-"""Cosine between upward and the normal of what counts as level."""
+"""A surface is level if the cosine between its normal and upward is above this."""
 BIN_M = 0.004
 ABOVE_M = 0.005
-"""Lower than this above what it stands on, a pixel belongs to that."""
+"""A pixel lower than this above the support belongs to the support."""
 STEP_M = 0.012
-"""Neighbouring pixels farther apart than this are not of one surface."""
+"""Neighbouring pixels farther apart than this are on different surfaces."""
 JOINED_M = 0.035
-"""So near to the thing, what is mostly in its box is a part of it."""
+"""A part that is mostly in the box, and this near to the object, belongs to it."""
 NEAR_M = 0.015
-"""Farther than this outside the block around its largest part, a part is of something else."""
+"""A part farther outside the block around the main part belongs to another object."""
 _FEW = 0.06
-"""A level with a smaller share of the level pixels is not what the thing stands on."""
+"""A height with a smaller share of the level pixels is not the support."""
 _LEAST_RISING = 0.08
 _MOST_SINKING = 0.1
-"""Shares of the box above and below what the thing stands on."""
+"""Limits for the shares of the box above and below the support."""
 HIGHEST_M = 0.27
-"""No thing is higher; what is farther below is the background."""
+"""The largest height of an object; what is farther below is background."""
 _IN_BOX = 0.6
 _LINKS = 3
-"""How many such parts may follow one another."""
+"""The longest chain of such parts."""
 _MOSTLY = 0.7
-"""A part with this share in the block around the largest one belongs to it."""
+"""A part with this share in the block around the main one belongs to it."""
 _MIDDLE = 0.3
-"""Standard deviation, in sides of the box, of how much a pixel counts by its place in the box."""
+"""Standard deviation, in sides of the box, of the weight of pixels around its centre."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -57,9 +57,9 @@ class Steps:
 
 
 def segment(frame: Frame, box: Box) -> Mask:
-    """The pixels (box.height, box.width) of the thing that a box in the picture is around.
+    """The mask (box.height, box.width) of the object in a box of the picture.
 
-    All of the box where there is no depth to tell.
+    It is the whole box if there is no depth.
     """
     rows, columns = _around(box, frame)
     points = back_project_grid(frame, rows, columns)
@@ -80,7 +80,7 @@ def segment(frame: Frame, box: Box) -> Mask:
 
 
 def _around(box: Box, frame: Frame) -> tuple[slice, slice]:
-    """Rows and columns of the box and what is around it, within the picture."""
+    """Rows and columns of the box with its margin, within the picture."""
     height, width = frame.depth.shape
     down = max(LEAST_AROUND, round(AROUND * box.height))
     across = max(LEAST_AROUND, round(AROUND * box.width))
@@ -91,10 +91,10 @@ def _around(box: Box, frame: Frame) -> tuple[slice, slice]:
 
 
 def support_height(points: Floats, inside: tuple[slice, slice]) -> float | None:
-    """The height (z, metres) of what the thing in a box stands on; None if it is not in sight.
+    """The height (z, metres) of the support of the object in a box; None if it is not visible.
 
-    That is the highest level surface beside and below the foot of the box that something in the
-    box rises above and hardly anything goes on below: other surfaces are the tops of neighbours.
+    That is the highest level surface beside and below the foot of the box for which something in
+    the box is above it and hardly anything below: other surfaces are the tops of neighbours.
 
     Args:
         points: (h, w, 3) in `map`, not finite where nothing was measured.
@@ -121,7 +121,7 @@ def support_height(points: Floats, inside: tuple[slice, slice]) -> float | None:
 
 
 def _is_level(points: Floats) -> Mask:
-    """Where (h, w) the surface is level, by the points two pixels to the right and below."""
+    """Mask (h, w) of level pixels, by the points two pixels to the right and below."""
     level = np.zeros(points.shape[:2], np.bool_)
     if min(level.shape) < 3:
         return level
@@ -135,7 +135,7 @@ def _is_level(points: Floats) -> Mask:
 
 
 def parts_of(candidates: Mask, steps: Steps) -> NDArray[np.int32]:
-    """Numbers (h, w) from 1 of the connected surfaces among the candidates; 0 elsewhere."""
+    """Label (h, w) the connected surfaces among the candidates from 1; 0 elsewhere."""
     near = steps.distances < STEP_M
     joined = (np.ones(near.sum()), (steps.starts[near], steps.ends[near]))
     graph = coo_array(joined, shape=(candidates.size,) * 2)
@@ -147,7 +147,7 @@ def parts_of(candidates: Mask, steps: Steps) -> NDArray[np.int32]:
 
 
 def steps_between(points: Floats, candidates: Mask) -> Steps:
-    """How far apart neighbouring candidates (h, w) are, to all eight sides."""
+    """The distances between neighbouring candidates (h, w), in all eight directions."""
     numbers = np.arange(candidates.size).reshape(candidates.shape)
     starts, ends, distances = [], [], []
     for one, other in (
@@ -164,10 +164,10 @@ def steps_between(points: Floats, candidates: Mask) -> Steps:
 
 
 def main_part(parts: NDArray[np.int32], inside: tuple[slice, slice]) -> int:
-    """The part that fills the middle of the box best; of one that goes on outside, less is thought.
+    """The part that best fills the middle of the box; parts that extend outside score less.
 
     Raises:
-        ValueError: if there is no part in the box.
+        ValueError: if no part is in the box.
     """
     in_box = parts[inside]
     height, width = in_box.shape
@@ -179,7 +179,7 @@ def main_part(parts: NDArray[np.int32], inside: tuple[slice, slice]) -> int:
 
 
 def shares_inside(parts: NDArray[np.int32], inside: tuple[slice, slice]) -> Floats:
-    """How much of each part, by its number, is in the box."""
+    """The share of each part, by label, that is in the box."""
     sizes = np.bincount(parts.ravel())
     return np.asarray(
         np.bincount(parts[inside].ravel(), minlength=len(sizes)) / np.maximum(sizes, 1)
@@ -189,10 +189,10 @@ def shares_inside(parts: NDArray[np.int32], inside: tuple[slice, slice]) -> Floa
 def those_with(
     main: int, points: Floats, parts: NDArray[np.int32], steps: Steps, inside: tuple[slice, slice]
 ) -> Mask:
-    """Which parts, by number, are of one thing with the main one.
+    """Mask, by label, of the parts that belong to the same object as the main one.
 
-    Those in the block around and below it, such as the bottom of a mug; and those mostly in the
-    box that touch the thing but for a small step, such as the shaft of a spatula.
+    Those are the parts in the block around and below it, such as the bottom of a mug; and parts
+    mostly in the box with only a small gap to the object, such as the shaft of a spatula.
     """
     count = int(parts.max()) + 1
     thing = points[parts == main]

@@ -1,8 +1,8 @@
-"""Tags that spell a thing's name: how the instant world's camera shows what is in view.
+"""Tags that encode the name of a thing: the pictures of the instant world's camera.
 
-A tag is a square of pixels in a colour of its own, with a rim. Inside of the rim, each channel of
-each pixel is one bit: as the rim is, or brighter. They are the length of the name in bytes, the
-name in UTF-8, zeros, and a checksum. Tags stand in a grid, so nobody has to look for them.
+A tag is a square of pixels in one colour, with a rim. Inside the rim, each channel of each pixel is
+one bit: as the rim, or brighter. The bits are the length of the name in bytes, the name in UTF-8,
+zeros, and a checksum. Tags are in a fixed grid, so that they need not be searched.
 """
 
 import zlib
@@ -15,21 +15,21 @@ from numpy.typing import NDArray
 from executive.types.perception import Box, Detection, Frame
 
 SIDE = 16
-"""Of a tag (pixels)."""
+"""Side of a tag (pixels)."""
 MARGIN = SIDE // 2
-"""Above and left of the first (pixels)."""
+"""Margin above and left of the first tag (pixels)."""
 _INNER = SIDE - 2
 _BYTES = _INNER * _INNER * 3 // 8
 _SUM_BYTES = 4
 LONGEST = _BYTES - 1 - _SUM_BYTES
-"""So many bytes of a name have room."""
+"""The largest length of a name (bytes)."""
 _BRIGHTER = 110
 
 
 def tag(name: str) -> NDArray[np.uint8]:
-    """The tag (SIDE, SIDE, 3) of a name; of one that is too long, a tag that nobody can read.
+    """The tag (SIDE, SIDE, 3) of a name; if the name is too long, `read` refuses the tag.
 
-    Its colour is the first three letters of the name.
+    Its colour comes from the first three letters of the name.
     """
     said = name.encode()
     content = bytes([len(said) % 256]) + said[:LONGEST].ljust(LONGEST, b"\0")
@@ -43,7 +43,7 @@ def tag(name: str) -> NDArray[np.uint8]:
 
 
 def read(pixels: NDArray[np.uint8]) -> str:
-    """The name that a tag (SIDE, SIDE, 3) spells; empty if it is no tag."""
+    """The name in a tag (SIDE, SIDE, 3); empty if it is not a tag."""
     rim = np.ones((SIDE, SIDE), np.bool_)
     rim[1:-1, 1:-1] = False
     dark = np.median(pixels[rim], axis=0)
@@ -56,13 +56,13 @@ def read(pixels: NDArray[np.uint8]) -> str:
 
 
 def spot(index: int, width: int) -> Box:
-    """Where the tag with this index stands in pictures of this width, row by row."""
+    """The position of the tag with this index in pictures of this width, row by row."""
     row, column = divmod(index, max(1, (width - MARGIN) // SIDE))
     return Box(MARGIN + column * SIDE, MARGIN + row * SIDE, SIDE, SIDE)
 
 
 def spots(width: int, height: int) -> Iterator[Box]:
-    """Where tags have room in a picture of this size."""
+    """All positions of tags in a picture of this size."""
     return takewhile(
         lambda box: box.top + SIDE <= height and box.left + SIDE <= width,
         (spot(index, width) for index in count()),
@@ -70,15 +70,15 @@ def spots(width: int, height: int) -> Iterator[Box]:
 
 
 def whole() -> NDArray[np.bool_]:
-    """The mask of a tag."""
+    """The mask of a tag: all its pixels."""
     return np.ones((SIDE, SIDE), np.bool_)
 
 
 class TagDetector:
-    """Implements Detector: reads tags, and sees nothing else."""
+    """Implements `Detector`: recognises tags only."""
 
     def detect(self, frame: Frame) -> tuple[Detection, ...]:
-        """What the tags in the picture spell, all with confidence 1, row by row."""
+        """The names in the tags of the picture, with confidence 1, row by row."""
         height, width = frame.color.shape[:2]
         found = ((read(_part(frame, box)), box) for box in spots(width, height))
         return tuple(Detection(name, 1.0, box, whole()) for name, box in found if name)

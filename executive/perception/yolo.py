@@ -1,4 +1,4 @@
-"""The outputs of the YOLO family, told apart and brought to one form: boxes, scores, classes."""
+"""Converts outputs of the YOLO family to one form: boxes, scores, classes."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -13,24 +13,24 @@ from executive.text import counted
 Floats32 = NDArray[np.float32]
 
 MASKS = 32
-"""Coefficients of a mask after the classes, in exports for segmentation."""
+"""Number of mask coefficients after the classes, in exports for segmentation."""
 MOST_ENDED = 5000
-"""Rows of an output whose overlaps are suppressed; grids have more."""
+"""The largest number of rows of an output after suppression; grids have more."""
 _TOLERANCE = 0.01
 _OTHER_TASKS = ("pose", "obb", "classify")
 
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """How an output is laid out.
+    """The layout of an output.
 
     Attributes:
-        output: which of the network's outputs it is.
-        kind: `grid`: a probability for each class after the box (YOLOv8 and later); `objectness`:
-            the same after how sure it is that anything is there (YOLOv5, v7); `ended`: corners,
-            score, class, with overlaps suppressed (YOLOv10, and exports with `nms=True`).
-        columns: how many numbers there are about a box.
-        turned: whether these are the rows of the output.
+        output: index among the network's outputs.
+        kind: `grid`: the box, then a probability for each class (YOLOv8 and later); `objectness`:
+            the same with an objectness score after the box (YOLOv5, v7); `ended`: corners, score,
+            class, after suppression (YOLOv10, and exports with `nms=True`).
+        columns: how many numbers there are for a box.
+        turned: whether the output is transposed: a box is a column.
     """
 
     output: int
@@ -42,7 +42,7 @@ class Layout:
         """The output as (n, columns).
 
         Raises:
-            InputError: if it is not laid out like this.
+            InputError: if it does not have this layout.
         """
         output = outputs[self.output] if self.output < len(outputs) else np.zeros(0, np.float32)
         if output.ndim == 3 and output.shape[2 - self.turned] == self.columns:
@@ -53,7 +53,7 @@ class Layout:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Boxes:
-    """What an output says, unsorted.
+    """The boxes in an output, unsorted.
 
     Attributes:
         corners: (n, 4): left, top, right, bottom.
@@ -69,12 +69,12 @@ class Boxes:
 def layout_of(
     outputs: Sequence[Floats32], classes: int, metadata: Mapping[str, str], where: str
 ) -> Layout:
-    """Which output is to be read, and how; what fits several layouts is told by what it says.
+    """Find the output to read, and its layout; if several fit, its values and metadata decide.
 
     Args:
-        outputs: for some picture.
-        classes: how many names its class list has.
-        metadata: the file's own words.
+        outputs: the outputs for some picture.
+        classes: number of names in the class list.
+        metadata: the file's metadata.
         where: the file, for messages.
 
     Raises:
@@ -101,7 +101,7 @@ def layout_of(
 
 
 def _layouts(outputs: Sequence[Floats32], classes: int) -> Iterator[Layout]:
-    """All that fit by their numbers of columns."""
+    """All layouts that fit by the number of columns."""
     masks = any(o.ndim == 4 and MASKS in (o.shape[1], o.shape[3]) for o in outputs)
     for number, output in enumerate(outputs):
         if output.ndim != 3:
@@ -121,7 +121,7 @@ def _layouts(outputs: Sequence[Floats32], classes: int) -> Iterator[Layout]:
 
 
 def _looks_ended(rows: Floats32) -> bool:
-    """Whether the rows can be corners, score and class: no class is a fraction."""
+    """Whether the rows can be corners, score and class: a class is an integer."""
     numbers, scores = rows[:, 5], rows[:, 4]
     of_classes = (numbers == np.floor(numbers)) & (numbers >= 0)
     ordered = (rows[:, 2] >= rows[:, 0]) & (rows[:, 3] >= rows[:, 1])
@@ -130,7 +130,7 @@ def _looks_ended(rows: Floats32) -> bool:
 
 @np.errstate(all="ignore")
 def read(rows: Floats32, layout: Layout, classes: int) -> Boxes:
-    """Boxes with their best class; what are no numbers, have no area or no class is left out."""
+    """The boxes with their best class, without those that are not finite, empty or unclassified."""
     if layout.kind == "ended":
         corners, best, numbers = rows[:, :4], rows[:, 4], rows[:, 5]
     else:
@@ -148,14 +148,14 @@ def read(rows: Floats32, layout: Layout, classes: int) -> Boxes:
 
 
 def probabilities(rows: Floats32, layout: Layout, classes: int) -> Floats32:
-    """The columns that should be from 0 to 1."""
+    """The columns that should be in [0, 1]."""
     if layout.kind == "ended":
         return rows[:, 4:5]
     return rows[:, 4 : 4 + classes + (layout.kind == "objectness")]
 
 
 def check_probabilities(rows: Floats32, layout: Layout, classes: int, where: str) -> None:
-    """See whether scores are probabilities.
+    """Check that scores are probabilities.
 
     Raises:
         InputError: if they are not.

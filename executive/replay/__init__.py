@@ -1,4 +1,4 @@
-"""Recorded missions run again."""
+"""Replays recorded missions."""
 
 from executive.replay.replaying import Replay, replay, replay_text, replays_text
 

@@ -1,4 +1,4 @@
-"""What a recording keeps of the body that its mission was run with."""
+"""Reads from a recording what it keeps about the robot's body."""
 
 from collections.abc import Mapping
 
@@ -13,9 +13,13 @@ from sim.home.home import FLOOR_VIEWS, Home
 
 
 class Body(BaseModel):
-    """Whether things have positions in `map`; which places take more than one view.
+    """The properties of the body that the tree depends on.
 
-    `blind_to` are objects that it would not recognise.
+    Attributes:
+        in_map: whether detections have positions in `map`.
+        views: number of head poses for each place that needs more than one.
+        blind_to: objects that perception would not recognise.
+        has_arm: whether the robot can take things.
     """
 
     in_map: bool
@@ -25,10 +29,10 @@ class Body(BaseModel):
 
 
 def recorded_body(run: Run, settings: Settings, home: Home) -> Body:
-    """As `executive.app.recording` has written it down.
+    """Read the body as `executive.app.recording` has written it.
 
     Raises:
-        InputError: if that cannot be read.
+        InputError: if it cannot be read.
     """
     kept = run.attachments.get("body.json")
     if kept is None:
@@ -41,7 +45,7 @@ def recorded_body(run: Run, settings: Settings, home: Home) -> Body:
 
 
 def _of_old(settings: Settings, home: Home) -> Body:
-    """Of the days in which nothing was kept of it, and there were only these two."""
+    """The body for early recordings, which keep nothing about it: there were only these two."""
     if settings.world != "physics":
         return Body(in_map=False, views={})
     views = {place: len(home.view_targets(place)) for place in places_viewed(home)[:-1]}

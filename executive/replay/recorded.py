@@ -1,4 +1,4 @@
-"""What a recorded mission was made of, by what the recording keeps."""
+"""Rebuilds the parts of a recorded mission from its recording."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -44,12 +44,12 @@ def recorded_parts(
     judge: Recorder,
     change: Change | None = None,
 ) -> Parts:
-    """What the recorded mission was made of, and stand-ins for all that acts or answers.
+    """The parts of the recorded mission, with stand-ins for all that acts or answers.
 
     Its policy is looked up by name, unless `change` is given.
 
     Raises:
-        InputError: if the recording lacks one of them.
+        InputError: if the recording lacks something that a part needs.
     """
     settings = _settings(run)
     home = with_placement(_home(kept(run, run.attachments, "home.toml")), settings.place)
@@ -94,15 +94,15 @@ def _knowledge(run: Run, settings: Settings, home: Home) -> Ontology:
 
 
 def _policy(run: Run) -> Change:
-    """The way in which the parts of the recorded mission were chosen.
+    """The policy of the recorded mission.
 
-    One of somebody's own is not imported, whatever its name: a recording runs no code.
+    A user's own policy is never imported: a recording must not run code.
     """
     name = run.metadata.get("policy", OURS)
     if name == OURS:
         return as_they_are
     from executive.campaign.policies import (
-        POLICIES,  # whose packages a replay of ours does not need
+        POLICIES,  # it imports packages that most replays do not need
     )
 
     if name not in POLICIES:
@@ -112,7 +112,7 @@ def _policy(run: Run) -> Change:
 
 
 def _places(run: Run, name: str) -> dict[str, list[str]]:
-    """Places of objects, from an attachment; there is not always more than what was believed."""
+    """The places of objects in an attachment; empty without one, but `facts.json` must exist."""
     if name != "facts.json" and name not in run.attachments:
         return {}
     try:
@@ -130,14 +130,14 @@ def _sources(run: Run) -> tuple[RecordedSource, ...]:
 
 
 def _experience(run: Run) -> RecordedExperience | None:
-    """What was learned; a robot that learned nothing had its memory alone, as in earlier days."""
+    """The recorded experience; None if the robot did not learn, or in early recordings."""
     if "learns" not in run.metadata:
         return None
     return RecordedExperience(at.value for at in run.records(Recalled))
 
 
 def _ways(run: Run) -> dict[tuple[str, str], float]:
-    """What the robot told of its ways; it tells -1 of those that there are not."""
+    """The recorded durations of drives (s); infinite where the recording has -1: no path."""
     told = (at.value for at in run.records(WaysTold))
     return {
         (ways.start, place): seconds if seconds >= 0 else inf
@@ -147,9 +147,9 @@ def _ways(run: Run) -> dict[tuple[str, str], float]:
 
 
 def _settings(run: Run) -> Settings:
-    """As recorded; what is not recorded was not set, whatever the environment says now.
+    """The recorded settings; others have their defaults, whatever the environment says now.
 
-    Recordings that do not say how it was searched are from when there was only the paper's way.
+    Recordings without `search` are from when there were only the paper's stages.
     """
     kept(run, run.attachments, "config.toml")
     recorded = {"search": "paper", **run.config()}
@@ -166,7 +166,7 @@ def _settings(run: Run) -> Settings:
 
 @cache
 def _prompts(text: bytes | None) -> Prompts:
-    """The recorded texts; ours of today, if none replaced ours."""
+    """The recorded prompts; today's, if the mission used ours."""
     if text is None:
         return Prompts.load()
     with TemporaryDirectory() as folder:
@@ -183,16 +183,16 @@ def _ontology(
     files: tuple[tuple[str, bytes], ...],
     person: str | None,
 ) -> Ontology:
-    """The recorded files, which take the place of those of today."""
+    """The ontology of the recorded files, which replace today's."""
     read = [parsed(Path(name), data) for name, data in files]
     return Ontology(places, things=things, defaults=defaults, files=read, person=person)
 
 
 def kept(run: Run, where: Mapping[str, T], name: str) -> T:
-    """What a recording keeps by this name.
+    """What a recording keeps under this name.
 
     Raises:
-        InputError: if it does not, as those of earlier days.
+        InputError: if it does not have it, as early recordings.
     """
     if name not in where:
         raise InputError(str(run.path), f"keeps no {name!r}", "replay needs a newer recording")

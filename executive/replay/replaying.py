@@ -1,8 +1,8 @@
-"""A recorded mission run again, without robot, model or person.
+"""Replays a recorded mission, without robot, model or person.
 
-Only events drive ticks: the recorded events are the mission. They are fed, at their times, to a
-fresh tree under the same executive, and each tick is compared with the recorded one. So a recording
-is a regression test:
+Only events cause ticks, so the recorded events determine the mission. They are given, at their
+times, to a new tree under the same executive, and each tick is compared with the recorded one. So a
+recording is a regression test:
 
     assert replay(Path("runs/20260101T120000Z-find-an-apple")).parting is None
 """
@@ -34,15 +34,15 @@ from logs.recording.reader import Run
 
 @dataclass(frozen=True, slots=True)
 class Replay:
-    """What came of it.
+    """The result of a replay.
 
     Attributes:
         run: name of the recording.
-        ticks: how many ticks were as recorded.
-        recorded_s: mission time of the last of them.
-        took_s: wall time of the replay.
-        parting: the first tick that was not as recorded (None: all were, and the outcome).
-        notes: how the tree has changed since the recording; whether it ends early.
+        ticks: number of ticks that were as recorded.
+        recorded_s: mission time of the last of them (s).
+        took_s: wall time of the replay (s).
+        parting: the first difference from the recording; None if ticks and outcome are the same.
+        notes: how the tree has changed since the recording; whether the recording ends early.
     """
 
     run: str
@@ -54,25 +54,25 @@ class Replay:
 
     @property
     def speed(self) -> float:
-        """How many times as fast as it was recorded."""
+        """Mission time divided by the replay's wall time."""
         return self.recorded_s / self.took_s
 
     @property
     def lasted(self) -> bool:
-        """Whether mission time passed before its last tick: without, there is no speed to tell."""
+        """Whether enough mission time passed to compute a speed."""
         return self.recorded_s >= 0.1
 
 
 def replay(folder: Path, build: Build = mission_tree, change: Change | None = None) -> Replay:
-    """Feed a recorded mission to a fresh tree.
+    """Replay a recorded mission with a new tree.
 
     Args:
         folder: the run's folder, or its mcap file.
         build: makes the tree.
-        change: puts other parts in; None: as the policy does that the recording names.
+        change: replaces parts; None: use the policy that the recording names.
 
     Raises:
-        InputError: if the recording cannot be read, or lacks what the tree is built from.
+        InputError: if the recording cannot be read, or lacks something that the tree needs.
     """
     began = perf_counter()
     run = Run(folder)
@@ -93,26 +93,26 @@ def replay(folder: Path, build: Build = mission_tree, change: Change | None = No
 
 
 class Judge:
-    """The Recorder of a replay: holds every tick against the recorded one."""
+    """The Recorder of a replay: compares every tick with the recorded one."""
 
     def __init__(self, clock: RecordedTime, *, ends_early: bool, exact: bool) -> None:
-        """Judge by the turn that the clock plays; the last may be cut off if it `ends_early`.
+        """Compare with the turn that the clock plays; if it `ends_early`, the last may be partial.
 
-        Unless `exact`, what is said in words does not count.
+        Unless `exact`, sentences are not compared.
         """
         self._clock = clock
         self._exact = exact
         self.ends_early = ends_early
         self._shape = TreeShape(())
         self.same = 0
-        """Ticks as recorded, so far."""
+        """Number of ticks as recorded, so far."""
         self.time_s = 0.0
-        """When the last of them was (mission time)."""
+        """Mission time of the last of them (s)."""
         self.parting: Parting | None = None
         """The first tick that was not as recorded."""
 
     def record(self, record: Record) -> None:
-        """Compare a tick; after the first that differs, the replay ends."""
+        """Compare a tick; the first that differs ends the replay."""
         match record:
             case TreeShape():
                 self._shape = record
@@ -120,9 +120,9 @@ class Judge:
                 self._compare(record)
 
     def changes(self, recorded: TreeShape) -> list[str]:
-        """Behaviours that one tree has and the other has not, a note each for the outermost."""
+        """A note for each outermost behaviour that only one of the two trees has."""
         if not recorded.nodes:
-            return []  # the recording ends before the tree was
+            return []  # the recording ends before the tree was recorded
         then, now = ({node.path: None for node in s.nodes} for s in (recorded, self._shape))
         gone, new = _outermost(then, now), _outermost(now, then)
         return [f"behaviour gone since: {path}" for path in gone] + [
@@ -175,7 +175,7 @@ def _requests_before(run: Run) -> int:
 
 
 def _late_parting(run: Run, clock: RecordedTime, situation: Situation) -> Parting | None:
-    """What differs although every tick did not: the recording goes on, or the outcome."""
+    """A difference after the last tick: the recording goes on, or the outcome differs."""
     while clock.next_turn() is not None:
         pass
     if clock.missed and (tick := clock.missed.tick):
@@ -184,19 +184,19 @@ def _late_parting(run: Run, clock: RecordedTime, situation: Situation) -> Partin
     recorded = run.outcome()
     if recorded is None:
         return None
-    if STILL_HELD not in recorded.reason:  # recorded when a stop did not tell what is in the hand
+    if STILL_HELD not in recorded.reason:  # early recordings: a stop did not say what is held
         situation.ending.reason = situation.ending.reason.partition(STILL_HELD)[0]
     outcome = situation.outcome(mission_time_s=clock.now(), wall_time_s=0.0, run_dir=None)
-    if "thinks" not in run.metadata:  # recorded when outcomes did not tell of the model
+    if "thinks" not in run.metadata:  # early recordings: outcomes did not have it
         outcome = replace(outcome, model_failure=recorded.model_failure)
-    if not recorded.tasks:  # recorded when there was but one
+    if not recorded.tasks:  # early recordings: there was only one task
         outcome = replace(outcome, tasks=())
     aspects = tuple(outcome_aspects(recorded, outcome, exact=_is_worded(run)))
     return Parting(None, recorded.mission_time_s, aspects) if aspects else None
 
 
 def replay_text(replayed: Replay) -> str:
-    """That all was as recorded; or where it parts, and in what."""
+    """The result of a replay in words."""
     notes = "".join(f"\n  note: {printable(note)}" for note in replayed.notes)
     same = f"{printable(replayed.run)}: {counted(replayed.ticks, 'tick')} as recorded"
     if replayed.parting is None and not replayed.lasted:
@@ -215,7 +215,7 @@ def replay_text(replayed: Replay) -> str:
 
 
 def replays_text(replays: Sequence[Replay]) -> str:
-    """One line about many: how many are as recorded, and how fast they were."""
+    """One line about several replays: how many are as recorded, and how fast they were."""
     same = sum(replayed.parting is None for replayed in replays)
     recorded_s = sum(replayed.recorded_s for replayed in replays)
     took_s = sum(replayed.took_s for replayed in replays)

@@ -1,4 +1,4 @@
-"""What stands in for time, robot, model and person when a recorded mission is run again."""
+"""Stand-ins for clock, robot, model and person in a replay."""
 
 from collections.abc import Iterable, Mapping
 from math import inf
@@ -14,10 +14,10 @@ from logs.recording.reader import Turn
 
 
 class RecordedTime:
-    """The Clock of a replay: each wait goes on to the next events of the recording."""
+    """The Clock of a replay: each wait advances to the next events of the recording."""
 
     def __init__(self, turns: Iterable[Turn], inbox: Inbox, requests_before: int) -> None:
-        """Play these turns; their requests are numbered on from `requests_before`."""
+        """Play these turns; the numbers of their requests follow `requests_before`."""
         self._turns = iter(turns)
         self._inbox = inbox
         self._requests_before = requests_before
@@ -25,9 +25,9 @@ class RecordedTime:
         self._stopped = False
         self._held_back: tuple[Event, ...] = ()
         self.turn: Turn | None = None
-        """The turn of the recording that is played; None at its end."""
+        """The current turn of the recording; None at its end."""
         self.missed: Turn | None = None
-        """The first turn in which the tree was not ticked although it was when recorded."""
+        """The first turn in which the recording has a tick and the replay has not."""
         self._ticked = False
 
     def now(self) -> float:
@@ -35,10 +35,10 @@ class RecordedTime:
         return self._now
 
     def restart(self) -> None:
-        """Nothing to do: the recording has its own start."""
+        """Do nothing: recorded times begin at 0."""
 
     def wait(self, deadline: float | None) -> None:
-        """Post what was recorded next; at the end say stop, then let the deadline pass."""
+        """Post the next recorded events; at the end, post a stop, then let the deadline pass."""
         if self._inbox.has_events:
             return
         if self._held_back:
@@ -52,14 +52,14 @@ class RecordedTime:
             self.stop("the end of the recording")
 
     def next_turn(self) -> Turn | None:
-        """Go on to the next turn of the recording."""
+        """Advance to the next turn of the recording."""
         if self.missed is None and self.turn and self.turn.tick and not self._ticked:
             self.missed = self.turn
         self.turn, self._ticked = next(self._turns, None), False
         return self.turn
 
     def tick(self) -> Tick | None:
-        """The tick that was recorded for the one that is made now."""
+        """The recorded tick that corresponds to the current one."""
         self._ticked = True
         return self.turn.tick if self.turn else None
 
@@ -69,9 +69,9 @@ class RecordedTime:
         self._inbox.post(StopRequested(by))
 
     def _post(self, events: tuple[Event, ...]) -> None:
-        """Post these events up to the end of what is yet to be started: that, when it was.
+        """Post these events, up to the end of a request that is not open yet; the rest later.
 
-        Where the mission was cut short, the end of `Halt` is in the same turn as what cut it short.
+        This happens if a mission was cut short: the end of `Halt` is in the same turn as the cause.
         """
         self._held_back = ()
         for index, event in enumerate(events):
@@ -89,71 +89,71 @@ class RecordedTime:
 
 
 class Absent:
-    """Stands in for robot, perception, model and person: numbers requests that end as recorded."""
+    """Stands in for robot, perception, model and person: opens requests, which end as recorded."""
 
     name = "absent"
     context_tokens = 4096
     can_rank = True
 
     def __init__(self, inbox: Inbox, situation: Situation) -> None:
-        """Open requests in this inbox; the fingers feel what is known in this situation."""
+        """Open requests in this inbox; `holding` is read from the situation."""
         self._inbox = inbox
         self._situation = situation
         self.several: Mapping[str, int] = {}
-        """How many views it takes to see the places for which one is not enough."""
+        """Number of head poses for each place that needs more than one."""
         self.ways: Mapping[tuple[str, str], float] = {}
-        """How long the ways take, from a place to another one (s)."""
+        """Durations of drives from a place to another one (s)."""
         self.rests = False
-        """Whether it halts at once, whatever was recorded: that was not judged in earlier days."""
+        """Whether `Halt` ends at once: early recordings did not wait for its end."""
 
     @property
     def holding(self) -> bool | None:
-        """What they felt before: what they felt anew is among the recorded events."""
+        """What the fingers last felt; changes are among the recorded events."""
         return self._situation.hand.felt
 
     def start(self, goal: Goal) -> int:
-        """Pursue nothing."""
+        """Open a request."""
         request = self._inbox.open()
         if self.rests and isinstance(goal, Halt):
             self._inbox.end(request, Succeeded())
         return request
 
     def see(self) -> int:
-        """Look at nothing."""
+        """Open a request."""
         return self._inbox.open()
 
     def chat(self, request: ChatRequest) -> int:
-        """Think nothing."""
+        """Open a request."""
         return self._inbox.open()
 
     def rank(self, request: RankRequest) -> int:
-        """Think nothing."""
+        """Open a request."""
         return self._inbox.open()
 
     def prepare(self, request: ChatRequest | RankRequest) -> None:
-        """Prepare nothing."""
+        """Do nothing."""
 
     def ask(self, question: Question) -> int:
-        """Ask nobody."""
+        """Open a request."""
         return self._inbox.open()
 
     def tell(self, text: str) -> None:
-        """Tell nobody."""
+        """Do nothing."""
 
     def cancel(self, request: int) -> None:
-        """Its end, had it come, was not recorded."""
+        """Drop the request: the recording has no end of it."""
         self._inbox.drop(request)
 
     def views(self, place: str) -> int:
-        """As many as when it was recorded."""
+        """The recorded number of head poses; 1 if none is recorded."""
         return self.several.get(place, 1)
 
     def seconds(self, start: str, place: str) -> float:
-        """As it was told when it was recorded."""
+        """The recorded duration (s); infinite if none is recorded."""
         return self.ways.get((start, place), inf)
 
     def count_tokens(self, text: str) -> int:
-        """None: prompts are not judged, and memory need not be short."""
+        """Return 0: prompts are not compared, so the dialogue need not be shortened."""
         return 0
 
     def close(self) -> None:

@@ -1,1 +1,1 @@
-"""Talking with the robot aloud: ears that hear words, a voice that says them (docs/speech.md)."""
+"""Spoken dialogue: ears recognise speech, and a voice produces it (docs/speech.md)."""

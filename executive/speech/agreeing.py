@@ -1,7 +1,7 @@
-"""A yes is certain where ears of two kinds, which know nothing of each other, hear it.
+"""Accepts a spoken yes as sure if a second, independent recogniser hears it, too.
 
-How certain other ears are is in a measure of their own, of which nobody here has tried where a
-wrong yes begins. That of the local ones has been tried.
+The confidence of another recogniser has a scale of its own, for which we have not measured where a
+wrong yes begins. For the local one we have.
 """
 
 from collections.abc import Callable
@@ -12,7 +12,7 @@ from executive.speech.sound import Sound
 
 
 class Agreeing:
-    """Implements `Ears`: the words of the first; a yes or a no is sure if the second's is."""
+    """Implements `Ears` with the words of `first`; a yes or no is sure if `second` is sure."""
 
     def __init__(self, first: Ears, second: Ears, agrees: Callable[[str], bool | None]) -> None:
         """`agrees` tells whether words are a yes, a no (False), or neither (None)."""
@@ -22,11 +22,11 @@ class Agreeing:
 
     @property
     def name(self) -> str:
-        """The first's."""
+        """The name of `first`."""
         return self._first.name
 
     def hear(self, sound: Sound) -> Reading:
-        """Ask the second only about an answer."""
+        """Recognise speech; use `second` only for a yes or a no."""
         reading = self._first.hear(sound)
         answer = self._agrees(reading.text) if reading.text else None
         if answer is None:

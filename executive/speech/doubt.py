@@ -1,4 +1,4 @@
-"""What was heard and is not certain is asked back, and done only when the person says yes to it."""
+"""Confirms uncertain speech: it is asked back, and done only if the person says yes."""
 
 import re
 import threading
@@ -16,29 +16,29 @@ from executive.speech.overlap import NONE, Overlap
 from executive.user import Console
 
 PATIENCE_S = 20.0
-"""How long what was asked back waits for its yes."""
+"""How long (s) a confirmation waits for its yes."""
 AGAIN_OR_TYPE = "Please say it again, or type it."
 UNCLEAR = "I did not understand you. Please say it again."
 YES_OR_NO = "Please say yes or no"
 OVERSPOKEN = "I was speaking, and did not understand you. Please say it again."
 TOO_MUCH = "That is more than I can hear at a time. Please say the last of it again."
 FRESH_S = 4.0
-"""So long ago it may have begun: else it could become the answer to what was asked since."""
+"""The greatest age (s) of an utterance: an older one could answer a later question by mistake."""
 SHORTEST = 3
-"""Letters of a word that may have been cut short."""
+"""The fewest letters of a word that may have been cut short."""
 OWN = 0.5
-"""If more of the telling words are the robot's own, it has heard itself."""
+"""If a larger share of the significant words is the robot's own, it has heard itself."""
 SPOTTER = "spotter"
-"""Who hears a stop, in logs."""
+"""The name of the stop spotter in logs."""
 
 
 @dataclass(frozen=True, slots=True)
 class AskedBack:
-    """Words that are done when the person says yes to them.
+    """Words that wait for the person's confirmation.
 
     Attributes:
-        number: tells it from what is asked back before and after.
-        words: what was heard.
+        number: number of the confirmation.
+        words: the recognised words.
     """
 
     number: int
@@ -46,14 +46,14 @@ class AskedBack:
 
     @property
     def text(self) -> str:
-        """As the person is asked."""
+        """The question to the person."""
         return f"Did you say: {_bare(self.words)}?"
 
 
 class Doubt:
-    """Between the ears and the person: lets through what is certain, and asks about the rest.
+    """Passes sure readings on to the person's console, and asks the person to confirm others.
 
-    What is typed meanwhile answers it, too. Any thread may call it.
+    A typed answer counts, too. Any thread may call it.
     """
 
     def __init__(
@@ -63,7 +63,7 @@ class Doubt:
         inbox: Inbox,
         now: Callable[[], float] = time.monotonic,
     ) -> None:
-        """Speak for this person."""
+        """Pass words on to this person's console."""
         self._person = person
         self._interpreter = interpreter
         self._inbox = inbox
@@ -73,20 +73,20 @@ class Doubt:
         self._asked: AskedBack | None = None
         self._asked_at = self._until = 0.0
         self.changed: Callable[[], None] = lambda: None
-        """Is called when something is asked back, and when it is no longer."""
+        """Callback when a confirmation begins, and when it ends."""
         person.first = self.takes
 
     @property
     def asked_back(self) -> AskedBack | None:
-        """What a button may still answer; None if there is nothing."""
+        """The open confirmation, for a button; None if there is none."""
         return self._asked
 
     def hear(self, reading: Reading, overlap: Overlap = NONE, began: float | None = None) -> None:
-        """The ears understood this, and the robot spoke meanwhile or not.
+        """Handle a reading; `overlap` says whether the robot spoke meanwhile.
 
-        What was heard while it spoke is never certain. Mostly it is the robot itself. Ears take
-        their time: what the person began to say (`began`, by the clock of this doubt) before
-        something was asked back is no answer to it.
+        A reading while it spoke is never sure: mostly it is the robot itself. Recognition takes
+        time: an utterance that began (`began`, by the clock of this object) before a confirmation
+        was asked is not an answer to it.
         """
         began = self._now() if began is None else began
         if not overlap.own:
@@ -100,7 +100,7 @@ class Doubt:
             self._log(reading, "the robot itself")
 
     def missed(self) -> None:
-        """Somebody says more than the ears can hear."""
+        """Tell the person that an utterance was dropped, as too many are waiting."""
         self._person.mention(TOO_MUCH)
 
     def _hear(self, reading: Reading, began: float) -> None:
@@ -125,16 +125,16 @@ class Doubt:
             self._ask(text)
 
     def stop(self, *, busy: bool = True) -> None:
-        """The spotter heard a stop; if the robot only spoke, there is no more to stop."""
+        """Handle a spotted stop; if not `busy`, the robot only spoke, and nothing else stops."""
         self._log(Reading(SPOTTER, "stop"), "a stop")
         self._take()
         if busy:
             self._person.says("stop")
 
     def settle(self, number: int, *, agrees: bool) -> bool:
-        """A button was pressed; False if this is not asked back any more.
+        """Answer a confirmation by a button; return False if it is not open any more.
 
-        It answers nothing else, however late it comes, so it has all the time that it takes.
+        A button answers only its own confirmation, so it may come at any time.
         """
         with self._lock:
             asked = self._asked
@@ -146,13 +146,13 @@ class Doubt:
         return True
 
     def forget(self) -> None:
-        """Ask nothing back any more: the person has done something else."""
+        """End the open confirmation: the person has done something else."""
         self._take()
 
     def takes(self, line: str) -> bool:
-        """Whether a line that was typed, or said with certainty, answers what was asked back.
+        """Use a typed or surely recognised line as the answer to a confirmation, if it is one.
 
-        Whatever else it is, it takes the place of that.
+        Any other line ends the confirmation. Returns whether the line was used.
         """
         asked = self._take()
         agrees = self._interpreter.agrees(line) if asked else None
@@ -162,12 +162,12 @@ class Doubt:
         return True
 
     def _is_own(self, text: str, own: str) -> bool:
-        """A stop at rest is taken for the robot's own, too: an answer would be heard again."""
+        """Whether the robot heard itself; also a stop at rest: its reply would be heard again."""
         stops = control(text) is Control.STOP
         return is_own(text, own) or (stops and not self._person.is_busy)
 
     def _answer(self, reading: Reading, asked: str, *, early: bool) -> None:
-        """A yes has to be certain; a no need not be. Both have to come after the question."""
+        """Handle an answer: a yes has to be sure, a no need not; both must follow the question."""
         agrees = self._interpreter.agrees(reading.text)
         if early or (agrees and not reading.sure):
             self._log(reading, "asked back")
@@ -196,12 +196,12 @@ class Doubt:
         return f"{YES_OR_NO}: {_bare(asked)}?"
 
     def _waiting(self) -> str:
-        """What was asked back and may still be answered; empty if there is nothing."""
+        """The words of the open confirmation; empty if there is none."""
         with self._lock:
             return self._asked.words if self._asked and self._now() < self._until else ""
 
     def _take(self) -> str:
-        """The same, and ask it no longer."""
+        """The same, and end the confirmation."""
         words = self._waiting()
         with self._lock:
             was, self._asked = self._asked, None
@@ -214,19 +214,19 @@ class Doubt:
 
 
 def is_own(heard: str, own: str) -> bool:
-    """Whether what was heard is made of what the robot said itself."""
+    """Whether the recognised words come from the robot's own sentences."""
     words = _words(heard)
     telling = [word for word in words if word not in LITTLE] or words
     return sum(_begins_one_of(_words(own), word) for word in telling) > OWN * len(telling)
 
 
 def _begins_one_of(words: list[str], word: str) -> bool:
-    """It may have been cut short: "halting" was heard as "halt"."""
+    """Whether a word, perhaps cut short, is among these: "halt" for "halting"."""
     return word in words or (len(word) >= SHORTEST and any(w.startswith(word) for w in words))
 
 
 def _bare(text: str) -> str:
-    """Without the sign at its end, which servers write."""
+    """The text without the final punctuation that servers write."""
     return text.rstrip(".!?… ")
 
 

@@ -1,4 +1,4 @@
-"""A voice: the program espeak-ng, which speaks by itself."""
+"""A voice by the program espeak-ng."""
 
 import logging
 import re
@@ -14,9 +14,9 @@ from executive.text import one_line, printable
 PROGRAM = "espeak-ng"
 RIGHT = "apt install espeak-ng, or leave --voice out"
 MOST_CHARACTERS = 500
-"""Of what is said aloud at a time: nobody listens longer."""
+"""The longest spoken text (characters): nobody listens longer."""
 MOST_WAITING = 20
-"""Sentences: what is said later than that is of no use any more."""
+"""The longest queue of sentences: later ones would come too late to be of use."""
 FAULT = "error: "
 _STOP = re.compile(r"\bstop(ped|ping|s)?\b", re.IGNORECASE)
 _HALT = {"": "halt", "ped": "halted", "ping": "halting", "s": "halts"}
@@ -24,9 +24,9 @@ log = logging.getLogger(__name__)
 
 
 class EspeakVoice:
-    """Implements `Voice`: one process a sentence, so that it can be silenced at once.
+    """Implements `Voice` with one process per sentence, so that it can be silenced at once.
 
-    It says "halt" for "stop": whoever listens for a stop would hear the robot's own.
+    It says "halt" for "stop", so that the stop spotter does not hear the robot's own word.
     """
 
     def __init__(self, program: str = PROGRAM) -> None:
@@ -40,14 +40,14 @@ class EspeakVoice:
             raise InputError(f"--voice {PROGRAM}", "there is no such program", RIGHT)
         self._command = [found, "--stdin"]
         self._texts: deque[str] = deque()
-        """What is being said, and after it what waits."""
+        """The current sentence, then those that wait."""
         self._changed = threading.Condition()
         self._speaking: subprocess.Popen[bytes] | None = None
         self._closed = self._is_faulty = False
         threading.Thread(target=self._speak, name="voice", daemon=True).start()
 
     def say(self, text: str) -> None:
-        """Say it after what is being said."""
+        """Queue a sentence."""
         words = _STOP.sub(_halt, one_line(text)[:MOST_CHARACTERS])
         with self._changed:
             if words and len(self._texts) < MOST_WAITING:
@@ -55,7 +55,7 @@ class EspeakVoice:
                 self._changed.notify()
 
     def hush(self) -> None:
-        """Be silent at once."""
+        """Stop speaking at once, and clear the queue."""
         with self._changed:
             if self._speaking:
                 self._speaking.kill()
@@ -64,12 +64,12 @@ class EspeakVoice:
 
     @property
     def saying(self) -> str:
-        """All of it in a line."""
+        """The current and the waiting sentences, on one line."""
         with self._changed:
             return " ".join(self._texts)
 
     def close(self) -> None:
-        """Be silent for good."""
+        """Stop speaking, and end the thread."""
         with self._changed:
             self._closed = True
             self._changed.notify()
@@ -85,9 +85,9 @@ class EspeakVoice:
                     self._texts.popleft()
 
     def _say_next(self) -> None:
-        """Wait for what is to be said, and say it.
+        """Wait for the next sentence, and say it.
 
-        Words go in by a pipe: whatever they are, they are no option.
+        Words are passed by a pipe, so that they are never taken for an option.
         """
         quiet = subprocess.DEVNULL
         with self._changed:
@@ -102,7 +102,7 @@ class EspeakVoice:
         self._notice(said.decode(errors="replace"))
 
     def _notice(self, said: str) -> None:
-        """Without a loudspeaker it says so, and ends well: that is told once."""
+        """Warn once of an error message: without a loudspeaker, the program still exits with 0."""
         faults = [line for line in said.splitlines() if line.lower().startswith(FAULT)]
         if faults and not self._is_faulty:
             self._is_faulty = True

@@ -1,6 +1,6 @@
-"""Ears take their time, a server's more than ours: they hear on a thread of their own.
+"""Speech recognition on a thread of its own, as it takes time, with a server even more.
 
-So a stop is listened for also while they think about what was said before.
+So the stop spotter listens also while an earlier utterance is recognised.
 """
 
 import logging
@@ -15,13 +15,13 @@ from executive.speech.overlap import Overlap
 from executive.speech.sound import RATE_HZ, Sound
 
 MOST_WAITING = 3
-"""Utterances: who says more meanwhile is told so."""
+"""The longest queue of utterances; the person is told if one is dropped."""
 log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, slots=True)
 class _Said:
-    """An utterance, when it began, and in which turn."""
+    """An utterance, when it began, and its turn."""
 
     turn: int
     began: float
@@ -30,20 +30,20 @@ class _Said:
 
 
 class Hearing:
-    """One utterance after the other goes to the ears, and what they make of it to the doubt."""
+    """Passes one utterance after the other to the ears, and their readings to `Doubt`."""
 
     def __init__(self, ears: Ears, doubt: Doubt) -> None:
-        """Wait for the first one."""
+        """Start the thread."""
         self._ears = ears
         self._doubt = doubt
         self._waiting: queue.Queue[_Said | None] = queue.Queue(MOST_WAITING)
         self._turn = 0
-        """What was said in an earlier turn is forgotten."""
+        """Readings of utterances from an earlier turn are dropped."""
         self._thread = threading.Thread(target=self._hear, name="hearing", daemon=True)
         self._thread.start()
 
     def add(self, sound: Sound, overlap: Overlap) -> None:
-        """Hear this, which has just ended, after what waits already."""
+        """Queue an utterance that has just ended."""
         began = time.monotonic() - len(sound) / RATE_HZ
         try:
             self._waiting.put_nowait(_Said(self._turn, began, sound, overlap))
@@ -51,15 +51,15 @@ class Hearing:
             self._doubt.missed()
 
     def forget(self) -> None:
-        """Whatever was said so far counts no more."""
+        """Drop all utterances so far."""
         self._turn += 1
 
     def settle(self) -> None:
-        """Return when all of it was heard."""
+        """Block until all utterances were recognised."""
         self._waiting.join()
 
     def finish(self) -> None:
-        """Return when all of it was heard; nothing is heard after that."""
+        """Block until all utterances were recognised, and end the thread."""
         self._waiting.put(None)
         self._thread.join()
 
@@ -72,7 +72,7 @@ class Hearing:
     def _hear_one(self, said: _Said) -> None:
         try:
             reading = self._ears.hear(said.sound)
-        except Exception as error:  # ears of others must not end all hearing
+        except Exception as error:  # ears of others must not end the thread
             log.warning("%s failed: %r", self._ears.name, error)
             reading = Reading(self._ears.name, "", problem="the ears failed")
         if said.turn == self._turn:

@@ -1,4 +1,4 @@
-"""The two seams of speech: who hears, and who speaks. Both are called from threads of their own."""
+"""The two interfaces of speech: recognition and output, each called from a thread of its own."""
 
 from dataclasses import dataclass
 from typing import Protocol
@@ -8,7 +8,7 @@ from executive.speech.sound import Sound
 
 @dataclass(frozen=True, slots=True)
 class Vocabulary:
-    """What a person in this home speaks of, in lower case: ears may listen for these words."""
+    """Names of things and places in this home, in lower case, as hints for the ears."""
 
     things: tuple[str, ...] = ()
     places: tuple[str, ...] = ()
@@ -16,14 +16,14 @@ class Vocabulary:
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """What ears made of an utterance.
+    """The result of recognising one utterance.
 
     Attributes:
-        by: the ears' name.
-        text: the words; empty if they could not make any of it.
-        confidence: between 0 and 1; 0 if the ears cannot tell.
-        sure: whether the words may be acted upon without asking; ours are only of a yes or a no.
-        problem: why the ears could not hear it, as a clause; empty if they could.
+        by: name of the ears.
+        text: the words; empty if none were recognised.
+        confidence: in [0, 1]; 0 if the ears give none.
+        sure: whether to act on the words without asking; ours are only sure of a yes or a no.
+        problem: why recognition failed, as a clause; empty if it did not.
     """
 
     by: str
@@ -34,24 +34,24 @@ class Reading:
 
 
 class Ears(Protocol):
-    """Makes words of what a person said."""
+    """A speech recogniser."""
 
     @property
     def name(self) -> str:
-        """Who hears, in a word, for logs."""
+        """Name for the logs, one word."""
         ...
 
     def hear(self, sound: Sound) -> Reading:
-        """What was said in one utterance; takes as long as it takes. Never raises.
+        """Recognise one utterance; may block. Never raises.
 
-        One thread calls it, which is neither the one that ticks nor the one that listens to a stop.
-        What is silence or noise has no text. What is not certain is not `sure`: a wrong reading
-        that is sure becomes a wrong deed.
+        It is called from one thread, which is neither the ticking one nor the one that listens for
+        a stop. Silence and noise have no text. Set `sure` only if it is certain: a wrong reading
+        that is sure becomes a wrong action.
         """
         ...
 
     def close(self) -> None:
-        """Free what was opened."""
+        """Free all resources."""
         ...
 
 
@@ -59,18 +59,18 @@ class Voice(Protocol):
     """Says aloud what the robot says."""
 
     def say(self, text: str) -> None:
-        """Say it after what is being said; returns at once. Never raises."""
+        """Queue a sentence; returns at once. Never raises."""
         ...
 
     def hush(self) -> None:
-        """Be silent at once, and forget what was to be said."""
+        """Stop speaking at once, and clear the queue."""
         ...
 
     @property
     def saying(self) -> str:
-        """What is being said or is about to be, as it sounds, for ears hear it, too; or nothing."""
+        """The current and waiting sentences as they sound, since the ears hear them; or empty."""
         ...
 
     def close(self) -> None:
-        """Be silent for good."""
+        """Stop speaking, and free all resources."""
         ...

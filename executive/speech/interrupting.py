@@ -1,32 +1,32 @@
-"""Whether somebody speaks while the robot does, which one microphone can tell by loudness alone.
+"""Detects by loudness, with one microphone, that somebody speaks while the robot does.
 
-How loud the robot is to itself is learned while it speaks: nothing at all where it is heard by
-headphones. What is clearly louder is somebody else. If it was a door, the robot has fallen silent
-once too often; what it said can be read.
+It learns the loudness of the robot's own voice while it speaks: 0 with headphones. What is clearly
+louder is somebody else. If it was a door, the robot was silenced needlessly; its words can still be
+read.
 """
 
 LEARN_S = 2.0
-"""So long it listens to itself before it believes anything."""
+"""How long (s) it measures its own voice before it detects anything."""
 LOUDER = 1.3
-"""Than the loudest of its own voice (tests/benchmarks/bench_own_voice.py --over): none of its own
-sentences is so much louder than those before it."""
+"""Factor to the loudest of its own voice (tests/benchmarks/bench_own_voice.py --over): none of its
+own sentences is louder than those before it by this factor."""
 AT_LEAST_S = 0.2
 FORGETS = 0.995
-"""Of its own loudness, each block."""
+"""Factor for its own loudness with each block."""
 LEAST = 150.0
-"""Root mean square below which nothing is speech."""
+"""Level (root mean square) below which nothing is speech."""
 
 
 class Interrupting:
-    """Compares what is heard while the robot speaks with what it sounds like."""
+    """Compares the level while the robot speaks with that of its own voice."""
 
     def __init__(self) -> None:
-        """It has not spoken yet."""
+        """Begin without a measurement."""
         self._own = 0.0
         self._listened_s = self._louder_s = 0.0
 
     def add(self, level: float, seconds: float, *, speaking: bool) -> bool:
-        """Whether somebody else has been speaking with this block, of so much loudness."""
+        """Add a block with this level; return whether somebody else has been speaking."""
         if not speaking:
             self._louder_s = 0.0
             return False

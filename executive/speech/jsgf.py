@@ -1,4 +1,4 @@
-"""The grammar that pocketsphinx listens by: what is said to a robot, with the names of a home."""
+"""The grammar for pocketsphinx: sentences to a robot, with the names of a home."""
 
 import re
 import tomllib
@@ -12,10 +12,10 @@ _ASSETS = files("executive.speech").joinpath("assets")
 _WORDS = tomllib.loads(_ASSETS.joinpath("english.toml").read_text("utf-8"))
 TEMPLATE = _ASSETS.joinpath("english.jsgf").read_text("utf-8")
 LITTLE = frozenset(_WORDS["little"].split())
-"""Words that say little of what is to be done."""
+"""Function words, which say little about what to do."""
 OTHER_NAMES = frozenset(_WORDS["other_names"].split())
 OTHER_DEEDS = frozenset(ENGLISH["unable"].split())
-"""Words that this home or robot has no use for, and that may be heard."""
+"""Words without a meaning in this home that may be said."""
 _NO_WORDS = re.compile(r"<[^>]*>|//.*|#JSGF.*|grammar \w+;|\bpublic\b")
 _WORD = re.compile(r"[a-z'-]+")
 
@@ -23,9 +23,9 @@ _WORD = re.compile(r"[a-z'-]+")
 def grammar(
     vocabulary: Vocabulary, is_known: Callable[[str], bool], *, others: bool = False
 ) -> tuple[str, tuple[str, ...]]:
-    """The grammar in JSGF, and the names that are not in it, because a word is not `is_known`.
+    """The grammar in JSGF, and the names left out because they have a word that is not `is_known`.
 
-    With `others`, words that this home has no use for are in it, too.
+    With `others`, it also has words without a meaning in this home.
     """
     every = (*vocabulary.things, *vocabulary.places)
     unheard = tuple(name for name in every if not all(map(is_known, name.split())))
@@ -45,12 +45,12 @@ def grammar(
 
 
 def words_of_template() -> frozenset[str]:
-    """Every word that the grammar has in itself."""
+    """All words of the grammar's template."""
     return frozenset(_WORD.findall(_NO_WORDS.sub(" ", TEMPLATE)))
 
 
 def _with_rule(text: str, name: str, words: Sequence[str]) -> str:
-    """The grammar with one of these words for the rule; without words, without the alternative."""
+    """Set the alternatives of a rule; if there are none, remove references to it."""
     if words:
         return f"{text}<{name}> = {' | '.join(words)};\n"
     return re.sub(rf"\| (\w+ )?<{name}>", "", text)

@@ -1,4 +1,4 @@
-"""Listens all the time, on a thread of its own: to a stop while something runs, and to words."""
+"""Listens all the time, on a thread of its own: for a stop while something runs, and for words."""
 
 import threading
 from collections.abc import Iterator
@@ -16,7 +16,7 @@ from executive.text import printable
 from executive.user import Console
 
 DEAD_S = 10.0
-"""A microphone that gives nothing but zeros for so long is switched off."""
+"""A microphone that gives only zeros for this long (s) is switched off."""
 DEAD = "I hear nothing at all, not even noise. Is the microphone switched off?"
 
 TOO_LONG = "What I hear is too long for a command, or noise."
@@ -24,9 +24,9 @@ NOBODY = "The sound has ended, and I have heard nobody speak."
 
 
 class Listening:
-    """What the microphone hears goes to the ears, and what they make of it to the person's side.
+    """Passes sound from the microphone to the stop spotter and, by utterances, to the ears.
 
-    The stop is listened for while there is something to stop: the robot's deed, or its voice.
+    The spotter is used while there is something to stop: the robot's action, or its voice.
     """
 
     def __init__(
@@ -40,7 +40,7 @@ class Listening:
         voice: Voice | None = None,
         live: bool = True,
     ) -> None:
-        """Put it together; `start` begins. What is not live waits until the ears have heard."""
+        """Connect the parts; `start` begins. If not `live`, each utterance waits for the ears."""
         self._blocks = blocks
         self._doubt = doubt
         self._person = person
@@ -52,18 +52,18 @@ class Listening:
         self._interrupting = Interrupting()
         self._dead_s = 0.0
         self._understands = True
-        """Whether what was heard last could be a command: else it has been told already."""
+        """Whether the last utterance could be a command; if not, the person was told already."""
         self._heard = False
-        """Whether anybody has been heard."""
+        """Whether any sound was heard."""
         self._thread = threading.Thread(target=self._listen, name="ears", daemon=True)
 
     def start(self) -> None:
-        """Listen from now on, until the sound ends."""
+        """Start the thread; it ends with the sound."""
         self._person.keep_open(True)
         self._thread.start()
 
     def close(self) -> None:
-        """Listen no more; what is being heard is dropped."""
+        """Stop listening, and drop unfinished utterances."""
         self._closed = True
         self._hearing.forget()
 
@@ -110,7 +110,7 @@ class Listening:
             self._hearing.settle()
 
     def _hears_stop(self, block: Sound, saying: str) -> bool:
-        """Whether it ends a spoken stop: what runs is stopped, and the voice is silent."""
+        """Whether a spoken stop ends in this block; if so, stop the robot and its voice."""
         busy = self._person.is_busy
         if not self._spotter or not (busy or saying) or not self._spotter.hears_stop(block):
             return False
@@ -121,13 +121,13 @@ class Listening:
         return True
 
     def _give_way(self, overlapping: Overlapping) -> None:
-        """Somebody speaks into the robot's words: it lets them."""
+        """Stop speaking if somebody interrupts."""
         overlapping.interrupted()
         if self._voice:
             self._voice.hush()
 
     def _notice_a_dead_one(self, block: Sound) -> None:
-        """Say once that the microphone seems to be switched off."""
+        """Tell the person, once, if the microphone seems to be switched off."""
         before = self._dead_s
         self._dead_s = 0.0 if block.any() else before + len(block) / RATE_HZ
         if before < DEAD_S <= self._dead_s:

@@ -1,6 +1,6 @@
-"""Where sound comes from: a WAV file, a folder of them, a pipe, or a program that records.
+"""Sources of sound: a WAV file, a folder of them, a pipe, or a program that records.
 
-It comes in blocks of a tenth of a second. After each file there is silence, as after a sentence.
+Sound comes in blocks of a tenth of a second. After each file there is silence, as after a sentence.
 """
 
 import re
@@ -23,19 +23,19 @@ RECORDER = "arecord"
 BLOCK = RATE_HZ // 10
 PAUSE_S = 1.0
 START_S = 0.3
-"""A recorder that finds no device, or a busy one, ends within this."""
+"""A recorder that finds no device, or a busy one, ends within this time (s)."""
 MOST_SAID = 1 << 16
 NO_DEVICE = f"see what {RECORDER} -l lists, and that no other program records; or give a FILE.wav"
 _PLACE = re.compile(r"^\w+: (?:\w+:\d+: )?")
-"""Where in its own source it found a fault."""
+"""The position in its own source code, in the recorder's error messages."""
 RIGHT = f"give a FILE.wav, a folder of them, - for a pipe, or {RECORDER} for a microphone"
 
 
 def microphone(name: str) -> Iterator[Sound]:
-    """The blocks of this microphone, as they come; files are tried before the first block.
+    """The blocks from this microphone, as they come; files are checked before the first block.
 
     Raises:
-        InputError: if there is no such file or program, or a file is no WAV that can be read.
+        InputError: if a file or program does not exist, or a file is not a readable WAV.
     """
     if name == "-":
         if sys.stdin is None or sys.stdin.closed:
@@ -51,12 +51,12 @@ def microphone(name: str) -> Iterator[Sound]:
 
 
 def is_live(name: str) -> bool:
-    """Whether it goes on while ears think: files wait for them."""
+    """Whether sound goes on during recognition; files wait for it."""
     return name in ("-", RECORDER)
 
 
 def from_files(sounds: list[Sound], wait: Callable[[float], None] = time.sleep) -> Iterator[Sound]:
-    """One file after the other, as slowly as they were spoken."""
+    """The blocks of the files, in real time."""
     pause = np.zeros(int(PAUSE_S * RATE_HZ), dtype=np.int16)
     for sound in sounds:
         whole = np.concatenate([sound, pause])
@@ -66,10 +66,10 @@ def from_files(sounds: list[Sound], wait: Callable[[float], None] = time.sleep) 
 
 
 def recorded() -> Iterator[Sound]:
-    """What the default microphone of ALSA hears.
+    """The blocks from the default microphone of ALSA.
 
     Raises:
-        InputError: if the program is not there, or ends: at once, or while it is listened to.
+        InputError: if the program is missing, or ends, at once or later.
     """
     program = shutil.which(RECORDER)
     if program is None:
@@ -80,7 +80,7 @@ def recorded() -> Iterator[Sound]:
 
 
 def _recorded(command: list[str]) -> Iterator[Sound]:
-    """First nothing, when it has begun; then what is recorded."""
+    """An empty block when recording has begun; then the recorded ones."""
     quiet, out = subprocess.DEVNULL, subprocess.PIPE
     with (
         tempfile.TemporaryFile() as said,
@@ -100,7 +100,7 @@ def _recorded(command: list[str]) -> Iterator[Sound]:
 
 
 def _ended(process: subprocess.Popen[bytes], said: IO[bytes]) -> InputError:
-    """Why there is no microphone, in the recorder's last words."""
+    """The error of a recorder that has ended, with its last message."""
     said.seek(0)
     lines = said.read(MOST_SAID).decode(errors="replace").strip().splitlines()
     why = _PLACE.sub("", lines[-1]) if lines else f"it ended with {process.returncode}"
@@ -108,6 +108,6 @@ def _ended(process: subprocess.Popen[bytes], said: IO[bytes]) -> InputError:
 
 
 def blocks(source: IO[bytes]) -> Iterator[Sound]:
-    """Raw samples: 16 kHz, 16 bits, little-endian, one channel."""
+    """The blocks of raw samples: 16 kHz, 16 bits, little-endian, one channel."""
     while content := source.read(2 * BLOCK):
         yield np.frombuffer(content[: len(content) // 2 * 2], "<i2").astype(np.int16)

@@ -1,4 +1,4 @@
-"""Which recogniser lies in a person's folder, by its files' names as sherpa-onnx ships them."""
+"""Finds the kind of a recogniser in a folder by its files' names, as sherpa-onnx ships them."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -12,7 +12,7 @@ PARTS = ("encoder", "decoder", "joiner", "model")
 
 
 class Kind(StrEnum):
-    """The families of models that are known here."""
+    """The supported families of models."""
 
     TRANSDUCER = "transducer"
     WHISPER = "Whisper"
@@ -21,7 +21,7 @@ class Kind(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class OnnxFiles:
-    """A model: its kind, and its files by what they are; `tokens` is among them."""
+    """The files of a model by their role, `tokens` among them, and its kind."""
 
     kind: Kind
     paths: dict[str, str]
@@ -35,10 +35,10 @@ NEEDED = {
 
 
 def onnx_files(folder: Path) -> OnnxFiles:
-    """What is in the folder.
+    """Find the model in a folder.
 
     Raises:
-        InputError: if it is no folder, or something in it is missing, empty or there twice.
+        InputError: if it is not a folder, or a file in it is missing, empty or there twice.
     """
     where = str(folder)
     if not folder.is_dir():
@@ -61,7 +61,7 @@ def onnx_files(folder: Path) -> OnnxFiles:
 
 
 def _of(where: str, part: str, names: list[str]) -> str:
-    """The file of this part; of one in several precisions the smallest (int8); or nothing."""
+    """The file for a role; of several precisions the smallest (int8); empty if there is none."""
     fitting = [name for name in names if name.endswith(".onnx") and part in name.lower()]
     small = [name for name in fitting if ".int8." in name]
     fitting = small or fitting

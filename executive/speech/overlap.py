@@ -1,20 +1,20 @@
-"""What an utterance has in it of the robot's own voice, by when it was loud and when it spoke."""
+"""Estimates how much of an utterance is the robot's own voice, by when it spoke."""
 
 from dataclasses import dataclass
 
 TAIL_S = 0.5
-"""So long a room still sounds of what was said."""
+"""How long (s) a room reverberates."""
 LEAST_S = 0.3
-"""What is loud for less beside the robot's own words is no word of a person."""
+"""Sound outside the robot's own words that is shorter than this (s) is not a person's word."""
 
 
 @dataclass(frozen=True, slots=True)
 class Overlap:
-    """What the robot said during an utterance.
+    """The robot's own words during an utterance.
 
     Attributes:
-        own: its words; empty if it was silent.
-        beside: whether somebody else spoke as well: before it began, after it had ended, or louder.
+        own: what the robot said; empty if it was silent.
+        beside: whether somebody else spoke, too: before it began, after it had ended, or louder.
     """
 
     own: str = ""
@@ -25,17 +25,17 @@ NONE = Overlap()
 
 
 class Overlapping:
-    """Follows what the robot says while an utterance is heard."""
+    """Collects what the robot says during an utterance."""
 
     def __init__(self) -> None:
-        """Nothing was heard yet."""
+        """Begin with the first utterance."""
         self._said: list[str] = []
         self._interrupted = False
         self._tail_s = 0.0
         self._beside_s = 0.0
 
     def add(self, saying: str, seconds: float, *, loud: bool) -> None:
-        """So long the robot said this, and it was loud or not."""
+        """Add a block of this duration, during which the robot said this."""
         if saying:
             self._tail_s = TAIL_S
             if not self._said or self._said[-1] != saying:
@@ -46,11 +46,11 @@ class Overlapping:
             self._beside_s += seconds
 
     def interrupted(self) -> None:
-        """Somebody else spoke into the robot's words."""
+        """Note that somebody else spoke over the robot."""
         self._interrupted = True
 
     def take(self) -> Overlap:
-        """What it was of the utterance that has ended; the next one begins."""
+        """Return the overlap of the utterance that has ended, and begin the next one."""
         beside = self._interrupted or self._beside_s >= LEAST_S
         found = Overlap(" ".join(self._said), bool(self._said) and beside)
         self._said, self._beside_s, self._interrupted = [], 0.0, False

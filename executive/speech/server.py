@@ -1,4 +1,4 @@
-"""Ears that are a server: `POST /v1/audio/transcriptions`, as OpenAI and many others have it."""
+"""Ears on a server: `POST /v1/audio/transcriptions`, as OpenAI and many others have it."""
 
 import asyncio
 from contextlib import aclosing
@@ -15,18 +15,18 @@ from executive.speech.transcript import NotATranscript, Transcript, transcript
 from executive.text import printable
 
 MODEL = "whisper-1"
-"""The name by which such servers know their first model; many take any."""
+"""The usual name of a server's first model; many servers accept any name."""
 NOT_HERE = (404, 405, 501)
 NOT_SO = (400, 415, 422)
-"""So servers refuse a format of the reply that they do not have."""
+"""HTTP statuses with which servers refuse an unsupported format of the reply."""
 DENIED = (401, 403, 407)
 BUSY = (429, 503, 529)
 MOST_OF_A_REPLY = 1 << 20
-"""Bytes."""
+"""The longest part of a reply that is read (bytes)."""
 
 
 class ServerEars:
-    """Implements `Ears`. Nothing is tried again: the person is asked to, who may type instead."""
+    """Implements `Ears`. It never retries: the person is asked to, and may type instead."""
 
     def __init__(
         self,
@@ -37,14 +37,14 @@ class ServerEars:
         key: Key | None = None,
         timeout_s: float = 20.0,
     ) -> None:
-        """Nothing is sent yet.
+        """Prepare to use a server; nothing is sent yet.
 
         Args:
-            url: of the server, with or without `/v1`.
-            model: its name there.
-            language: that is spoken, by its code of ISO 639-1.
+            url: address of the server, with or without `/v1`.
+            model: name of the model on the server.
+            language: the spoken language, an ISO 639-1 code.
             key: sent as a bearer token, to this server only.
-            timeout_s: how long an answer may take.
+            timeout_s: how long a reply may take (s).
 
         Raises:
             InputError: if the address has a user or a password in it.
@@ -60,24 +60,24 @@ class ServerEars:
 
     @property
     def note(self) -> str:
-        """What the person is told before they speak; empty if no sound leaves this machine."""
+        """What to tell the person about privacy; empty if no sound leaves this machine."""
         if is_this_machine(self._bases[0]):
             return ""
         openly = "" if self._shown.startswith("https:") else ", and anyone on the way can listen"
         return f"What you say aloud is sent to {self._shown}{openly}."
 
     def hear(self, sound: Sound) -> Reading:
-        """Send it, unless it is silent."""
+        """Send the utterance, unless it is silent."""
         if is_silent(sound):
             return Reading(self.name, "")
         try:
             heard = asyncio.run(self._in_time(to_wav(sound)))
-        except Exception as error:  # whatever a server does, ears go on
+        except Exception as error:  # whatever a server does, listening goes on
             return Reading(self.name, "", problem=self._sentence(error))
         return Reading(self.name, self._key.hidden_in(heard.text), heard.confidence)
 
     def close(self) -> None:
-        """Nothing stays open."""
+        """Do nothing: no connection stays open."""
 
     async def _in_time(self, wav: bytes) -> Transcript:
         async with (
@@ -91,7 +91,7 @@ class ServerEars:
             return await self._heard(client, wav)
 
     async def _heard(self, client: httpx2.AsyncClient, wav: bytes) -> Transcript:
-        """Ask in each way that this server may have, until it answers; remember which it was."""
+        """Try each address and format until the server answers; remember which worked."""
         refused: list[Refused] = []
         for base in self._bases:
             for form in self._formats:
@@ -125,7 +125,7 @@ class ServerEars:
         return body
 
     def _sentence(self, error: Exception) -> str:
-        """Why it did not answer, as a clause; without the key, whatever the server says."""
+        """Why it failed, as a clause; the key is removed if the server's message has it."""
         match error:
             case TimeoutError() | httpx2.TimeoutException():
                 return f"{self._shown} did not answer within {self._timeout_s:g} s"
@@ -152,10 +152,10 @@ class ServerEars:
 
 
 async def _read(response: httpx2.Response, most: int) -> bytes:
-    """The beginning of what it sends.
+    """Read the beginning of the response.
 
     Raises:
-        NotATranscript: if it is packed, which was not asked for.
+        NotATranscript: if it is compressed, which was not requested.
     """
     coding = response.headers.get("Content-Encoding", "").strip().lower() or "identity"
     if coding != "identity":

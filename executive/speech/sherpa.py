@@ -1,7 +1,7 @@
-"""Ears by a file of the person's own: a model that sherpa-onnx runs on this machine.
+"""Ears with a model of the user's own, which sherpa-onnx runs on this machine.
 
-A file that does not fit makes that library end the whole program. So each is loaded and tried in a
-process of its own before.
+A file that does not fit makes that library end the whole process. So each model is first loaded and
+tried in another process.
 """
 
 import os
@@ -30,23 +30,23 @@ NAME = "sherpa-onnx"
 MISSING = "pip install 'robot-executive[speech-onnx]'"
 THREADS = 2
 PATIENCE_S = 120.0
-"""How long loading and trying a model may take."""
+"""How long loading and trying a model may take (s)."""
 LONGEST_FAULT = 300
 FULL_SCALE = 32768.0
 _PLACE = re.compile(r"\S+\.(?:cc|h):\S*\d+ ?")
-"""Where in its own source the library found a fault."""
+"""The position in its own source code, in the library's error messages."""
 
 
 class SherpaEars:
-    """Implements `Ears`. It does not tell how certain it is."""
+    """Implements `Ears`. It gives no confidence."""
 
     name = NAME
 
     def __init__(self, folder: Path, language: str = "en") -> None:
-        """Load the model that is in this folder; `language` (ISO 639-1) counts for some.
+        """Load the model in a folder; some models use `language` (ISO 639-1).
 
         Raises:
-            InputError: if the library is not installed, or the folder's files are no such model.
+            InputError: if the library is not installed, or the folder has no such model.
         """
         try:
             import sherpa_onnx  # noqa: F401 - of the extra `speech-onnx`
@@ -57,7 +57,7 @@ class SherpaEars:
         self._recognizer = recognizer(files, language)
 
     def hear(self, sound: Sound) -> Reading:
-        """Hear it once."""
+        """Recognise an utterance."""
         if is_silent(sound):
             return Reading(self.name, "")
         try:
@@ -67,11 +67,11 @@ class SherpaEars:
             return Reading(self.name, "", problem=problem)
 
     def close(self) -> None:
-        """Nothing stays open."""
+        """Do nothing: no resource stays open."""
 
 
 def recognizer(files: OnnxFiles, language: str) -> "OfflineRecognizer":
-    """Load it, as the package has it for this kind of model."""
+    """Load a model of this kind."""
     from sherpa_onnx import OfflineRecognizer
 
     match files.kind:
@@ -88,7 +88,7 @@ def recognizer(files: OnnxFiles, language: str) -> "OfflineRecognizer":
 
 
 def heard(recognizer: "OfflineRecognizer", sound: Sound) -> str:
-    """What it writes of this."""
+    """The text that the recogniser gives for a sound."""
     stream = recognizer.create_stream()
     stream.accept_waveform(RATE_HZ, sound.astype(np.float32) / FULL_SCALE)
     recognizer.decode_stream(stream)
@@ -96,10 +96,10 @@ def heard(recognizer: "OfflineRecognizer", sound: Sound) -> str:
 
 
 def _try(folder: Path, files: OnnxFiles, language: str) -> None:
-    """See in a process of its own that it loads and hears.
+    """Load a model and use it once, in another process.
 
     Raises:
-        InputError: says what the library says of it.
+        InputError: if that fails; with the library's message.
     """
     environment = {k: v for k, v in os.environ.items() if k not in (LLM_KEY, EARS_KEY)}
     environment["PYTHONPATH"] = os.pathsep.join(part or os.getcwd() for part in sys.path)
@@ -128,11 +128,11 @@ def _no_model(folder: Path, files: OnnxFiles, why: str) -> InputError:
 
 
 def main() -> None:
-    """Load a model and let it hear a second of noise; for `_try`."""
+    """Load a model and recognise a second of noise; the program of `_try`."""
     given = loads(sys.argv[1])
     files = OnnxFiles(Kind(given["files"]["kind"]), given["files"]["paths"])
     noise = np.random.default_rng(0).normal(0, 300, RATE_HZ).astype(np.int16)
     try:
         heard(recognizer(files, given["language"]), noise)
-    except Exception as error:  # whatever it is, it is told in a line
+    except Exception as error:  # any error becomes one line
         sys.exit(printable(error))

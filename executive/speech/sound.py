@@ -1,4 +1,4 @@
-"""Sound as the ears get it: 16,000 samples a second of 16 bits, one channel; and files of it."""
+"""Sound for the ears: 16,000 samples per second, 16 bits, one channel; reading and writing WAV."""
 
 import io
 import wave
@@ -11,30 +11,30 @@ from numpy.typing import NDArray
 from executive.errors import InputError
 
 Sound = NDArray[np.int16]
-"""Samples at `RATE_HZ`, one channel."""
+"""(n,) samples at `RATE_HZ`, one channel."""
 
 RATE_HZ = 16_000
 LONGEST_S = 60.0
-"""Nobody speaks longer without a break; a file that does is no command."""
+"""The longest sound in a file (s): nobody speaks a command longer without a break."""
 RIGHT = "record WAV, 16 bits, 16 kHz, one channel: arecord -f S16_LE -r 16000 -c 1 FILE.wav"
 SLOWEST_HZ, FASTEST_HZ = 8_000, 192_000
 MOST_BYTES = 100 << 20
-"""Of a file: a minute has less, even of the finest sound in two channels."""
+"""The largest file: a minute of high-quality stereo is smaller."""
 EXTENSIBLE = b"\xfe\xff"
 FLOOR = 3.0
-"""Standard deviation of a noise that nobody hears."""
+"""Standard deviation of an inaudible noise."""
 QUIET = 100
-"""A peak below this (of 32,767) is silence: microphones' own noise has less."""
+"""A peak below this (of 32,767) is silence: the noise of microphones is lower."""
 
 
 def read_wav(path: Path) -> Sound:
-    """What is in a WAV file.
+    """Read a WAV file.
 
-    Other rates than 16 kHz are resampled, of several channels the mean is taken, and samples of 8,
-    24 or 32 bits become 16.
+    Other rates are resampled to 16 kHz, several channels are averaged, and samples of 8, 24 or 32
+    bits are converted to 16.
 
     Raises:
-        InputError: if it cannot be read, is no such WAV, has no sound, or more than a minute of it.
+        InputError: if it cannot be read, is not such a WAV, is empty, or longer than a minute.
     """
     try:
         with path.open("rb") as file:
@@ -47,10 +47,9 @@ def read_wav(path: Path) -> Sound:
 
 
 def from_wav(content: bytes, where: str) -> Sound:
-    """The same of bytes.
+    """The sound in the content of a WAV file.
 
-    A program that writes into a pipe does not know how long it will be, and says too much in the
-    header: what is there counts.
+    The length in the header is ignored: a program that writes into a pipe does not know it.
 
     Raises:
         InputError: as `read_wav` does.
@@ -76,7 +75,7 @@ def from_wav(content: bytes, where: str) -> Sound:
 
 
 def _with_plain_format(content: bytes) -> bytes:
-    """A header of the extensible kind says at its end what another says at once."""
+    """Replace the extensible format tag by the plain one that it contains."""
     at = content.find(b"fmt ", 0, 1000) + 8
     if at < 8 or content[at : at + 2] != EXTENSIBLE or len(content) < at + 26:
         return content
@@ -84,7 +83,7 @@ def _with_plain_format(content: bytes) -> bytes:
 
 
 def _of_16_bits(frames: bytes, width: int) -> NDArray[np.float64]:
-    """Samples of so many bytes, as large as if they had 16 bits."""
+    """Samples of `width` bytes, scaled to the range of 16 bits."""
     if width == 1:
         return (np.frombuffer(frames, np.uint8).astype(np.float64) - 128.0) * 256.0
     padded = np.zeros((len(frames) // width, 4), np.uint8)
@@ -93,9 +92,9 @@ def _of_16_bits(frames: bytes, width: int) -> NDArray[np.float64]:
 
 
 def resampled(samples: NDArray[np.floating], rate_hz: int) -> Sound:
-    """At 16 kHz."""
+    """Resample to 16 kHz."""
     if rate_hz != RATE_HZ and len(samples):
-        from scipy.signal import resample_poly  # loads slowly
+        from scipy.signal import resample_poly  # slow to import
 
         common = gcd(rate_hz, RATE_HZ)
         samples = resample_poly(samples, RATE_HZ // common, rate_hz // common)
@@ -103,7 +102,7 @@ def resampled(samples: NDArray[np.floating], rate_hz: int) -> Sound:
 
 
 def to_wav(sound: Sound) -> bytes:
-    """As the bytes of a WAV file."""
+    """The content of a WAV file."""
     content = io.BytesIO()
     with wave.open(content, "wb") as file:
         file.setnchannels(1)
@@ -114,11 +113,11 @@ def to_wav(sound: Sound) -> bytes:
 
 
 def with_floor(sound: Sound) -> Sound:
-    """With a noise that nobody hears: recognisers stumble over perfect silence."""
+    """Add an inaudible noise: recognisers have trouble with digital silence."""
     noise = np.random.default_rng(0).normal(0, FLOOR, len(sound))
     return np.clip(np.round(sound + noise), -32768, 32767).astype(np.int16)
 
 
 def is_silent(sound: Sound) -> bool:
-    """Whether nothing can be heard in it."""
+    """Whether the sound is silence."""
     return not len(sound) or int(np.abs(sound.astype(np.int32)).max()) < QUIET

@@ -1,10 +1,10 @@
-"""Ears that ship with their model: pocketsphinx, with the grammar of this home as its language.
+"""Ears with a packaged model: pocketsphinx, with a grammar for this home.
 
-A grammar forces every sound into one of its sentences, also what was never said. So an utterance is
-heard three times: with the grammar; with the same grammar and many words more, which this home has
-no use for; and with no words at all. Where the first two do not agree, or a word explains its
-sounds much worse than phones without words do, it is not certain. Even what is certain by that was
-wrong once in fourteen times when it was tried, so that only a yes or a no is ever `sure`.
+A grammar matches every sound to one of its sentences, also if it is something else. So an utterance
+is decoded three times: with the grammar; with the same grammar and many words more, which have no
+meaning in this home; and with phones only. If the first two do not agree, or a word fits its sounds
+much worse than the phones do, the confidence is low. In our measurements, one in fourteen readings
+with high confidence was still wrong, so that only a yes or a no is ever `sure`.
 """
 
 import logging
@@ -27,21 +27,21 @@ if TYPE_CHECKING:
 NAME = "pocketsphinx"
 MISSING = "pip install 'robot-executive[speech]'"
 WORST = -10.0
-"""A word that is so much worse than its sounds, in the decoder's units a frame, is none of it."""
+"""A word that fits worse than the phones by this, in the decoder's units per frame, is wrong."""
 SLACK = 3.0
-"""Little words are short, and spoken carelessly: they may be so much worse."""
+"""The same for function words, which are short and spoken carelessly."""
 SURE = 0.6
-"""Confidence from which a yes or a no is certain (tests/benchmarks/bench_speech.py --part dev)."""
+"""Confidence from which a yes or a no is sure (tests/benchmarks/bench_speech.py --part dev)."""
 YES_OR_NO = frozenset(("yes", "yes please", "no", "okay"))
 LEAST = 0.3
-"""Below this, what was heard is not even worth a question about it."""
+"""Below this confidence, a reading is not worth a question."""
 MOST_SWALLOWED = 6
-"""Frames (of 10 ms) of speech that may be in a silence: the beginning of a sound, or its end."""
+"""Frames (of 10 ms) of speech allowed in a silence: the beginning or the end of a sound."""
 LOUD = 0.1
-"""Of the loudest frame: what is as loud is speech."""
+"""A frame with this share of the loudest frame's level is speech."""
 _FRAME = RATE_HZ // 100
 _BEAMS = {"beam": 1e-64, "wbeam": 1e-50, "pbeam": 1e-64}
-"""Wider than pocketsphinx's own: a sentence of a grammar that is dropped is not found again."""
+"""Wider than pocketsphinx's default: a sentence that is pruned is not found again."""
 _TINY = 1e-300
 _VARIANT = re.compile(r"\(\d+\)$")
 log = logging.getLogger(__name__)
@@ -49,7 +49,7 @@ log = logging.getLogger(__name__)
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """A word, a noise or a phone: its frames, and the logarithm of how well it fits them."""
+    """A word, a noise or a phone, with its frames and its log-likelihood there."""
 
     word: str
     first: int
@@ -58,12 +58,12 @@ class Segment:
 
     @property
     def frames(self) -> slice:
-        """Where it is."""
+        """Its frames as a slice."""
         return slice(self.first, self.last + 1)
 
     @property
     def is_word(self) -> bool:
-        """Neither a silence nor a noise."""
+        """Whether it is neither a silence nor a noise."""
         return self.word[0] not in "<[+("
 
 
@@ -73,7 +73,7 @@ class PocketsphinxEars:
     name = NAME
 
     def __init__(self, vocabulary: Vocabulary) -> None:
-        """Load the packaged model, and listen for what is spoken of in this home.
+        """Load the packaged model, with a grammar for this vocabulary.
 
         Raises:
             InputError: if pocketsphinx is not installed.
@@ -91,7 +91,7 @@ class PocketsphinxEars:
         self._phones.add_allphone_file("phones", model("en-us-phone.lm.bin"))
 
     def hear(self, sound: Sound) -> Reading:
-        """Hear it three times."""
+        """Decode the utterance three times."""
         if is_silent(sound):
             return Reading(self.name, "")
         sound = with_floor(sound)
@@ -109,10 +109,10 @@ class PocketsphinxEars:
         return Reading(self.name, text, confidence, sure=sure)
 
     def close(self) -> None:
-        """Nothing stays open."""
+        """Do nothing: no resource stays open."""
 
     def _learns(self, word: str) -> bool:
-        """Whether it is known how a word sounds; one made of two that are known is put together."""
+        """Whether the pronunciation is known; that of a compound is added from its two words."""
         if self._words.lookup_word(word):
             return True
         for cut in range(len(word) - 3, 2, -1):
@@ -124,17 +124,17 @@ class PocketsphinxEars:
 
 
 def words_of(segments: list[Segment]) -> str:
-    """What was said."""
+    """The recognised words."""
     return " ".join(_plain(one) for one in segments if one.is_word)
 
 
 def telling(segments: list[Segment]) -> tuple[str, ...]:
-    """The words without those that say little."""
+    """The words without function words."""
     return tuple(_plain(one) for one in segments if one.is_word and _plain(one) not in LITTLE)
 
 
 def certainty(words: list[Segment], phones: list[Segment], sound: Sound) -> float:
-    """Between 0 and 1, by the word that explains its sounds worst; noise counts as a word."""
+    """Confidence in [0, 1], by the word that fits its sounds worst; noise counts as a word."""
     spoken = [one for one in words if one.word != SILENCE]
     if not spoken or _is_swallowed(words, sound):
         return 0.0
@@ -151,14 +151,14 @@ def _plain(one: Segment) -> str:
 
 
 def _fit(one: Segment, by_sound: NDArray[np.float64]) -> float:
-    """How much better than its sounds alone a word is, a frame."""
+    """How much better than the phones a word fits, per frame."""
     sounds = by_sound[one.frames]
     slack = SLACK if _plain(one) in LITTLE else 0.0
     return (one.score - float(sounds.sum())) / len(sounds) + slack
 
 
 def _a_frame(phones: list[Segment], frames: int) -> NDArray[np.float64]:
-    """The score of the sounds alone in each frame."""
+    """(frames,) the score of the phones in each frame."""
     scores = np.zeros(frames)
     for one in phones:
         scores[one.frames] = one.score / (one.last - one.first + 1)
@@ -166,7 +166,7 @@ def _a_frame(phones: list[Segment], frames: int) -> NDArray[np.float64]:
 
 
 def _is_swallowed(words: list[Segment], sound: Sound) -> bool:
-    """Whether speech was taken for a silence: no word has to explain it then."""
+    """Whether speech was decoded as silence, so that no word covers it."""
     frames = sound[: len(sound) // _FRAME * _FRAME].reshape(-1, _FRAME).astype(np.float64)
     power = np.sqrt((frames**2).mean(axis=1))
     loud = power > LOUD * power.max(initial=0.0)
@@ -175,7 +175,7 @@ def _is_swallowed(words: list[Segment], sound: Sound) -> bool:
 
 
 def decoder(**settings: Any) -> "Decoder":
-    """A decoder with the packaged acoustic model and dictionary, and nothing to listen for yet.
+    """A decoder with the packaged acoustic model and dictionary, without a search yet.
 
     Raises:
         InputError: if pocketsphinx is not installed.
@@ -189,14 +189,14 @@ def decoder(**settings: Any) -> "Decoder":
 
 
 def model(name: str) -> str:
-    """A file of the model that is in the package."""
+    """The path of a file of the packaged model."""
     from pocketsphinx import get_model_path
 
     return str(get_model_path(f"en-us/{name}"))
 
 
 def segments(decoder: "Decoder", search: str, sound: Sound) -> list[Segment]:
-    """What an utterance is made of; nothing if it does not fit what the decoder listens for."""
+    """Decode an utterance into segments; empty if it does not fit the search."""
     decoder.activate_search(search)
     decoder.start_utt()
     decoder.process_raw(sound.astype("<i2").tobytes(), full_utt=True)

@@ -1,7 +1,7 @@
-"""A spoken "stop", heard while the person still speaks, and without the help of any ears.
+"""Spots a spoken "stop" at once, while the person still speaks, independently of the ears.
 
-A false stop costs a command that is said again; a missed one costs a vase. So it is listened for
-only while there is something to stop, and then rather too often.
+A false stop costs a repeated command; a missed one costs a vase. So the spotter is only used while
+there is something to stop, and then with many false alarms.
 """
 
 import tempfile
@@ -11,16 +11,16 @@ from executive.speech.sound import RATE_HZ, Sound
 from executive.speech.sphinx import decoder
 
 STOP, STOP_TOO = "stop", "stopp"
-"""As Americans say it, which the dictionary has, and as others do: a keyword has one sound."""
+"""The American pronunciation, from the dictionary, and another: a keyword has only one."""
 OTHERS_SAY = "S T AO P"
 THRESHOLD = 1e-16
-"""How likely the word is against any sounds: at 1e-8, a third of the spoken stops were missed."""
+"""Threshold of the keyword: at 1e-8, a third of the spoken stops were missed."""
 FORGET_S = 20.0
-"""After so long a stretch of sound, the spotter begins afresh."""
+"""The spotter restarts after this much sound (s)."""
 
 
 class StopSpotter:
-    """Listens to everything, block by block."""
+    """Searches sound for "stop", block by block."""
 
     def __init__(self) -> None:
         """Load the packaged model.
@@ -39,7 +39,7 @@ class StopSpotter:
         self._decoder.start_utt()
 
     def hears_stop(self, block: Sound) -> bool:
-        """Whether the word ended in this block, or shortly before it."""
+        """Whether a "stop" ended in this block, or shortly before it."""
         self._decoder.process_raw(block.astype("<i2").tobytes())
         self._heard += len(block)
         found = self._decoder.hyp() is not None

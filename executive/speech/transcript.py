@@ -1,4 +1,4 @@
-"""What a model writes of what it heard, and a server's reply as OpenAI has it."""
+"""Parses a server's transcript in OpenAI's format, and cleans a model's text."""
 
 import json
 import math
@@ -10,32 +10,32 @@ from executive.servers.refusal import refusal_in
 from executive.text import one_line, writable
 
 MOST_CHARACTERS = 400
-"""Nobody says more in the seconds that an utterance may have: models repeat themselves in noise."""
+"""The longest text of an utterance: on noise, models repeat themselves."""
 NO_SPEECH, HARDLY = 0.6, -1.0
-"""A piece that is likelier no speech than this, and whose words are hardly likely, is none: as
-Whisper itself has it."""
+"""A segment with a higher probability of no speech, and unlikely words, is not speech: the rule of
+Whisper itself."""
 _ASIDE = re.compile(r"\[[^\]]*\]|\([^)]*\)|\*[^*]*\*|♪")
-"""What no one said: [BLANK_AUDIO], (music), *coughs*."""
+"""Annotations, which nobody said: [BLANK_AUDIO], (music), *coughs*."""
 
 
 class NotATranscript(Exception):
-    """The reply has no words in it, nor does it say that there were none."""
+    """The reply is not a transcript, not even an empty one."""
 
 
 @dataclass(frozen=True, slots=True)
 class Transcript:
-    """What was said, and how likely that is: 0 to 1, and 0 if the server does not tell."""
+    """The words, and their confidence in [0, 1]; 0 if the server gives none."""
 
     text: str
     confidence: float = 0.0
 
 
 def transcript(body: bytes) -> Transcript:
-    """Read it.
+    """Parse the body of a reply.
 
     Raises:
-        NotATranscript: says what it is instead.
-        Refused: if it says that something was wrong, although its status was good.
+        NotATranscript: if it is something else; says what.
+        Refused: if it contains an error in spite of a good status.
     """
     try:
         value: object = json.loads(body.decode(errors="replace"))
@@ -56,14 +56,14 @@ def transcript(body: bytes) -> Transcript:
 
 
 def said(text: str) -> str:
-    """The words in what a model wrote, in a line; empty if there are none, or too many."""
+    """The words in a model's text, on one line; empty if there are none, or too many."""
     words = one_line(_ASIDE.sub(" ", writable(text[: 4 * MOST_CHARACTERS])))
     spoken = any(map(str.isalnum, words)) and len(words) <= MOST_CHARACTERS
     return words if spoken else ""
 
 
 def _pieces(segments: object) -> Iterator[tuple[float, float]]:
-    """Of each piece the mean logarithm of its words' likelihood, and that it is no speech."""
+    """For each segment, the mean log-probability of its words, and the probability of no speech."""
     for one in segments if isinstance(segments, list) else []:
         if isinstance(one, dict):
             likely = _number(one.get("avg_logprob"))

@@ -1,4 +1,4 @@
-"""Where an utterance begins and ends in a stream of sound, by how loud it is."""
+"""Splits a stream of sound into utterances, by loudness."""
 
 from collections import deque
 
@@ -7,35 +7,35 @@ import numpy as np
 from executive.speech.sound import RATE_HZ, Sound
 
 OVER_NOISE = 4.0
-"""Speech is so much louder than what is heard between utterances."""
+"""Speech is louder than the background by this factor."""
 LEAST = 150.0
-"""Root mean square below which nothing is speech, however quiet it is otherwise."""
+"""Level (root mean square) below which nothing is speech, however quiet it is otherwise."""
 BEFORE_S, PAUSE_S = 0.3, 0.7
-"""What is kept from before it was loud; after so much quiet, an utterance is over."""
+"""How much sound (s) is kept from before an utterance, and how much quiet ends it."""
 SHORTEST_S = 0.15
-"""What is loud for less is a click."""
+"""A sound that is loud for less than this (s) is a click."""
 MOST_S = 15.0
-"""Longer ones are no command, but noise: they are dropped."""
+"""Longer utterances (s) are noise, not commands, and are dropped."""
 
 
 class Utterances:
     """Cuts blocks of sound into utterances."""
 
     def __init__(self) -> None:
-        """Nothing was heard yet."""
+        """Begin without sound."""
         self._noise = LEAST / OVER_NOISE
         self.level = 0.0
-        """Root mean square of the last block."""
+        """Level (root mean square) of the last block."""
         self.too_long = False
-        """Whether what ended with the last block was too long for a command."""
+        """Whether the utterance that ended with the last block was too long for a command."""
         self.is_loud = False
-        """Whether the last block was as loud as speech is."""
+        """Whether the last block was as loud as speech."""
         self._before: deque[Sound] = deque()
         self._spoken: list[Sound] = []
         self._loud_s = self._quiet_s = 0.0
 
     def add(self, block: Sound) -> Sound | None:
-        """An utterance that ended with this block; None if none did."""
+        """Add a block; return the utterance that it ends, or None."""
         level = float(np.sqrt(np.mean(block.astype(np.float64) ** 2))) if len(block) else 0.0
         self.level, self.too_long = level, False
         seconds = len(block) / RATE_HZ
@@ -54,11 +54,11 @@ class Utterances:
         return self.end() if self._quiet_s >= PAUSE_S or self._length_s > MOST_S else None
 
     def end(self) -> Sound | None:
-        """What was said last, if it is an utterance."""
+        """End the sound; return the last utterance, or None."""
         whole, said = self._spoken, self._loud_s >= SHORTEST_S and self._length_s <= MOST_S
         self.too_long = self._length_s > MOST_S
         if self.too_long:
-            self._noise = self.level  # what is as loud all the time is noise, from now on
+            self._noise = self.level  # a constant level is background noise
         self._spoken, self._loud_s, self._quiet_s = [], 0.0, 0.0
         return np.concatenate(whole) if said and whole else None
 

@@ -1,4 +1,4 @@
-"""A bench for missions in the instant world, with a scripted person and a scripted model."""
+"""A test bench: runs missions in the instant world, with a scripted person and model."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
@@ -47,12 +47,12 @@ def four_rooms() -> Home:
 
 @cache
 def ontology(defaults: bool) -> Ontology:
-    """What is known in it, with default locations or without."""
+    """The ontology of the packaged home, with or without default locations."""
     return Ontology(four_rooms().places(), defaults=defaults)
 
 
 def knowledge_system(llm: bool, remembers: bool) -> KnowledgeSystem:
-    """Which of the paper's systems this is."""
+    """The paper's system with these properties."""
     if not llm:
         return KnowledgeSystem.OKB
     return KnowledgeSystem.OKB_LLM_MEM if remembers else KnowledgeSystem.OKB_LLM
@@ -60,22 +60,22 @@ def knowledge_system(llm: bool, remembers: bool) -> KnowledgeSystem:
 
 @dataclass
 class Notebook:
-    """A Recorder that keeps everything."""
+    """A Recorder that keeps all records in memory."""
 
     records: list[Record] = field(default_factory=list)
 
     def record(self, record: Record) -> None:
-        """Keep it."""
+        """Keep a record."""
         self.records.append(record)
 
     def all(self, kind: type) -> list[Any]:
-        """All records of this type, in their order."""
+        """All records of this type, in order."""
         return [record for record in self.records if isinstance(record, kind)]
 
 
 @dataclass
 class Run:
-    """One mission that was run, and everybody who took part."""
+    """One mission that was run, with its collaborators and records."""
 
     outcome: Outcome
     world: FakeWorld
@@ -93,7 +93,7 @@ class Run:
 
     @property
     def dropped(self) -> list[str]:
-        """Names in the model's replies that were not let through."""
+        """Names in the model's replies that the verification dropped."""
         return [name for verdict in self.notebook.all(Verified) for name in verdict.dropped]
 
 
@@ -127,29 +127,29 @@ def run_mission(
 
     Args:
         words: the command.
-        answers: what the person answers, one after the other (None: nothing); without, the person
-            is the always-right oracle.
-        replies: what the model replies, one after the other.
+        answers: the person's answers, in order (None: no answer comes); if not given, the person
+            is the oracle, who is always right.
+        replies: the model's replies, in order.
         llm: whether there is a model.
-        remembers: whether the model is given the dialogue so far, as in the paper's third system.
-        defaults: whether the ontology knows default locations.
+        remembers: whether prompts contain the dialogue so far, as in the paper's third system.
+        defaults: whether the ontology has default locations.
         elicit: `rank` or `generate`.
-        search: `paper`: where the robot looks and asks is the same in every home; `plan`: it goes
-            by the ways, too, as missions do by default.
+        search: `paper`: looks and questions do not depend on distances; `plan`: they do, as in
+            missions by default.
         place: where things are, if not where the home file has them.
-        fault: says of each goal of the robot why it fails, or None.
-        mishaps: what `--fault` orders of the world, as in `moved=mug:desk@1`.
-        seed: of what is left to chance.
-        during: is called at the start of every goal of the robot, and may post events.
-        parameters: limits of patience and effort that are not the usual ones.
+        fault: why a goal of the robot fails; None if it does not.
+        mishaps: faults of the world, as given to `--fault`: `moved=mug:desk@1`.
+        seed: seed of all random choices.
+        during: called at the start of every goal of the robot; may post events.
+        parameters: parameters of the behaviours that differ from the usual ones.
         person: makes another person.
         model: makes another scripted model.
-        first: events that are posted before the mission starts.
-        notebook: keeps the records; without, a new one does.
-        facts: a memory; without, nothing is remembered.
-        sources: who else knows where things are.
+        first: events to post before the mission starts.
+        notebook: keeps the records; if not given, a new one does.
+        facts: a memory; if not given, nothing is remembered.
+        sources: further knowledge sources.
         detector: makes another detector.
-        change: puts in other parts.
+        change: replaces parts.
         build: makes the tree.
     """
     inbox, notebook, situation = Inbox(), notebook or Notebook(), Situation()
@@ -202,7 +202,7 @@ def run_mission(
 
 
 def _noted(robot: Robot, during: Callable[[Goal], None]) -> list[Goal]:
-    """The goals that the robot is given from now on; `during` is called when each has begun."""
+    """The list of goals that the robot gets from now on; calls `during` after each start."""
     goals: list[Goal] = []
     start = robot.start
 
@@ -217,7 +217,7 @@ def _noted(robot: Robot, during: Callable[[Goal], None]) -> list[Goal]:
 
 
 def _who_answers(answers: Iterable[str | None] | None, inbox: Inbox, world: FakeWorld) -> User:
-    """Who gives these answers; without any, the oracle."""
+    """The person: scripted with these answers, or the oracle if there are none."""
     if answers is None:
         return Oracle(inbox, world.resting_place)
     return Scripted(inbox, answers)

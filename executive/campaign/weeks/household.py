@@ -1,7 +1,7 @@
-"""The life of one household: ten commands a day, things that wander, a robot that remembers.
+"""Simulates one household: ten commands a day, things that people move, a robot that remembers.
 
-What is kept from command to command: where things are, what the robot remembers, and on one day
-where it is. Each morning it is at its start, and a new program has begun.
+Between commands, the places of things and the robot's memory are kept, and within a day the robot's
+position. Each morning the robot is at its start, and a new session begins.
 """
 
 import io
@@ -32,13 +32,13 @@ from sim.home.home_file import load_home
 from sim.home.state import HomeState, read_state, write_state
 
 BEGIN_S = 4_102_704_000.0
-"""The first morning is that of Monday, 2100-01-04 (UTC): a home's time is never before today's."""
+"""Monday, 2100-01-04 (UTC), in the future: a home's time is never before the current time."""
 DAY_S, HOUR_S = 86_400.0, 3600.0
 WAKING = (7.0, 22.0)
-"""Commands are given between these hours."""
+"""The hours of the day between which commands are given."""
 MOST_LOOKED_BACK = 10_000
 SURE = 0.5
-"""What is less likely is no belief: it is looked at in passing."""
+"""A place below this probability does not count as believed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,12 +51,12 @@ class Order:
 
 @dataclass(frozen=True, slots=True)
 class Household:
-    """Who lives with which robot.
+    """A household with its robot.
 
     Attributes:
-        settings: of its missions, but for what the policy sets.
-        policy: who says where to look.
-        days: how long it is watched.
+        settings: settings of its missions; the policy overrides some.
+        policy: name of the policy.
+        days: number of days to simulate.
     """
 
     settings: Settings
@@ -65,22 +65,22 @@ class Household:
 
     @property
     def settings_used(self) -> Settings:
-        """The settings with those of the policy."""
+        """The settings, overridden by those of the policy."""
         return policy_named(self.policy).applied_to(self.settings)
 
     @property
     def name(self) -> tuple[str, str, str, int]:
-        """As its lines have it."""
+        """What identifies it in the journal's lines."""
         used = self.settings_used
         llm = label_of(used.llm) if used.uses_llm else "none"
         return self.policy, label_of(self.settings.home), llm, self.settings.seed
 
     def run(self, before: Sequence[Line]) -> Iterator[Line]:
-        """Give the commands that are left."""
+        """Run the days that are not complete in `before`."""
         return live(self, before)
 
     def orders(self, day: int) -> tuple[Order, ...]:
-        """What is asked of the robot on a day; the same for every policy."""
+        """The commands of a day; the same for every policy."""
         chance = random.Random(f"{self.settings.seed} {day}")
         things = tuple(load_home(self.settings.home).objects)
         hours = sorted(chance.uniform(*WAKING) for _ in range(COMMANDS_A_DAY))
@@ -91,7 +91,7 @@ class Household:
 
 
 def live(household: Household, before: Sequence[Line] = ()) -> Generator[Line, None, None]:
-    """Give the commands of all days that are not whole in `before`, each when it is asked for.
+    """Run the commands of all days that are not complete in `before`, one per step.
 
     Raises:
         ExecutiveError: if the settings, the home or the model file are wrong.
@@ -117,38 +117,38 @@ def live(household: Household, before: Sequence[Line] = ()) -> Generator[Line, N
 
 @dataclass
 class _Watch:
-    """A sink that notes where the robot was going to look, who named the place, and how surely."""
+    """A sink that notes each candidate place with its source, and whether it was believed."""
 
     observed: Observed = field(default_factory=Observed)
     named: dict[str, tuple[str, bool]] = field(default_factory=dict)
-    """Of each place, who named it, and whether it was believed to be there rather than not."""
+    """For each place, its source, and whether its probability was at least `SURE`."""
 
     def begin(self) -> None:
-        """A mission begins."""
+        """Begin a mission."""
         self.observed, self.named = Observed(), {}
 
     def write(self, stamp: Stamp, record: Record) -> None:
-        """The first who names a place counts."""
+        """Add a record; the first source of a place counts."""
         self.observed.write(stamp, record)
         if isinstance(record, Tick) and (candidate := record.situation.get("candidate")):
-            likely = candidate["probability"]  # by the paper's stages nobody says
+            likely = candidate["probability"]  # None in the paper's stages
             sure = likely is None or likely >= SURE
             self.named.setdefault(candidate["place"], (candidate["source"], sure))
 
     def flush(self) -> None:
-        """Nothing to bring to disk."""
+        """Do nothing."""
 
     def close(self) -> None:
-        """Nothing to close."""
+        """Do nothing."""
 
     def in_vain(self, source: str, outcome: Outcome) -> int:
-        """1 if this source had surely named a place that was visited, and it was elsewhere."""
+        """1 if the robot visited a believed place from this source in vain, else 0."""
         wrong = (place for place in outcome.visited if place != outcome.location)
         return int(any(self.named.get(place) == (source, True) for place in wrong))
 
 
 class _Life:
-    """A household from one day to the next: two files, as a person would keep them."""
+    """The state of a household between days: its home and memory files."""
 
     def __init__(
         self,
@@ -171,7 +171,7 @@ class _Life:
         self._time_s = time_s
 
     def day(self, day: int) -> Generator[Line, None, None]:
-        """All commands of a day."""
+        """Run all commands of a day."""
         used = self._household.settings_used
         kept = {"home_state": self._state, "memory": self._memory}
         settings = used.model_copy(update=kept)

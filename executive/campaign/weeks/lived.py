@@ -1,7 +1,7 @@
-"""What a week's campaign keeps: one JSON line for each command that was given to a household.
+"""The journal of a campaign of weeks: one JSON line for each command to a household.
 
-A line has what the mission came to, where all things were after it, and what was remembered in it.
-So the lines of a household are all that it takes to go on from there.
+A line has the results of the mission, the places of all things after it, and the new facts in the
+memory. So the lines of a household are enough to continue from there.
 """
 
 import json
@@ -23,7 +23,7 @@ DAYS_A_WEEK = 7
 
 @dataclass(frozen=True, slots=True)
 class Lived:
-    """How one command in the life of a household went; times in seconds."""
+    """The results of one command to a household; times in seconds."""
 
     policy: str
     home: str
@@ -32,25 +32,25 @@ class Lived:
     day: int
     """From 0."""
     turn: int
-    """Of the day, from 0."""
+    """Index of the command in its day."""
     hour: float
-    """Of the day, at which the command was given."""
+    """Hour of the day at which the command was given."""
     command: str
     object: str = ""
     status: str = ""
     reason: str = ""
     completed: bool = False
-    """Done by the world's truth."""
+    """Whether it was done by the ground truth."""
     source: str = ""
-    """Who named the place where it was found."""
+    """The source of the place where it was found."""
     location: str = ""
     inquiries: int = 0
     visits: int = 0
     visited: str = ""
     stale: int = 0
-    """1 if the robot looked in vain where its memory had the thing, rather than not."""
+    """1 if the robot looked in vain at a place that it believed from its memory, else 0."""
     misguided: int = 0
-    """1 if it looked in vain where it took people to have brought it, rather than not."""
+    """1 if it looked in vain at a place that it believed from people's habits, else 0."""
     search_s: float = 0.0
     cost_s: float = 0.0
     mission_time_s: float = 0.0
@@ -58,7 +58,7 @@ class Lived:
 
     @property
     def household(self) -> tuple[str, str, str, int]:
-        """Whose it was."""
+        """What identifies the household."""
         return self.policy, self.home, self.llm, self.seed
 
     @property
@@ -76,9 +76,9 @@ class Line:
 
     Attributes:
         lived: how the command went.
-        time_s: when the mission had ended, by the home's clock (UTC).
-        things: where each thing was then.
-        facts: what was remembered in it.
+        time_s: the end of the mission by the home's clock (UTC, s).
+        things: the place of each thing then.
+        facts: the new facts in the memory.
     """
 
     lived: Lived
@@ -87,14 +87,14 @@ class Line:
     facts: tuple[Fact, ...]
 
     def to_json(self) -> str:
-        """As the journal has it."""
+        """The line as JSON."""
         facts = [[str(f.kind), f.object, f.place, f.time_s] for f in self.facts]
         kept = {"time_s": self.time_s, "things": self.things, "facts": facts}
         return json.dumps({**asdict(self.lived), **kept})
 
 
 def read_line(text: bytes) -> Line | str:
-    """A line of the journal, or why it is none."""
+    """Parse a line of the journal; a string says why it is not one."""
     try:
         values: dict[str, Any] = json.loads(text)
         time_s, things = float(values.pop("time_s")), dict(values.pop("things"))
@@ -113,11 +113,11 @@ class Diary(LineFile):
     """The file with the lines of all households."""
 
     def append(self, line: Line) -> None:
-        """Add one, as `LineFile.write` does."""
+        """Append a line, as `LineFile.write` does."""
         self.write(line.to_json())
 
     def entries(self) -> list[Line]:
-        """One for each command that was given; of several the last counts. No damaged ones."""
+        """One line for each command, the last if there are several; without damaged ones."""
         found = {}
         for text in self.lines():
             if isinstance(line := read_line(text), Line):
@@ -126,7 +126,7 @@ class Diary(LineFile):
         return [found[key] for key in sorted(found)]
 
     def damage(self) -> list[str]:
-        """A sentence for each line that is none."""
+        """A sentence for each damaged line."""
         read = enumerate(map(read_line, self.lines()), start=1)
         return [f"{self.file}:{n}: is no line: {why}" for n, why in read if isinstance(why, str)]
 
@@ -137,5 +137,5 @@ def write_table(lived: Iterable[Lived], file: Path) -> None:
 
 
 def read_table(file: Path) -> list[Lived]:
-    """The rows of a file of `write_table`."""
+    """Read the rows of a file of `write_table`."""
     return [Lived(**row) for row in pq.read_table(file).to_pylist()]

@@ -1,5 +1,5 @@
-"""Conformance suites: what everyone who implements a protocol promises, as tests to inherit.
+"""Conformance suites: tests to inherit for every implementation of a protocol.
 
-Subclass one in your own tests, give it the fixture that its module asks for, and pytest runs every
-promise against your implementation. This needs pytest, which the executive itself does not.
+Subclass one in your own tests and provide the fixture that its module describes; pytest then runs
+all its tests on your implementation. This needs pytest, which the executive itself does not.
 """

@@ -1,4 +1,4 @@
-"""What every Camera owes the executive. An adapter's tests subclass `CameraContract`.
+"""The contract of every Camera. An adapter's tests subclass `CameraContract`.
 
 Provide a fixture `camera_bench` that yields a `CameraBench`: the camera, on a robot at rest.
 """
@@ -11,21 +11,21 @@ from scipy.spatial.transform import Rotation
 from executive.interfaces.perception import Camera
 
 NEAREST_M, FARTHEST_M = 0.02, 50.0
-"""Depths beyond these were not meant in metres."""
+"""Depths outside of these limits are not in metres."""
 
 
 @dataclass
 class CameraBench:
-    """A camera, and where the robot is that carries it: x and y in `map` (metres)."""
+    """A camera, and the position of its robot: x and y in `map` (metres)."""
 
     camera: Camera
     robot_at: tuple[float, float]
     reach_m: float = 1.0
-    """How far the camera may be from there, over the floor."""
+    """The largest horizontal distance of the camera from there."""
 
 
 class CameraContract:
-    """Each method is one promise of `Camera` and `Frame`."""
+    """Each method tests one requirement of `Camera` and `Frame`."""
 
     def test_pictures_are_rgb_bytes_and_depth_of_one_size(self, camera_bench: CameraBench) -> None:
         frame = camera_bench.camera.capture()

@@ -1,4 +1,4 @@
-"""What every Detector owes the executive. An adapter's tests subclass `DetectorContract`.
+"""The contract of every Detector. An adapter's tests subclass `DetectorContract`.
 
 Provide a fixture `detector_bench` that yields a `DetectorBench`: the detector, and a picture in
 which it should recognise something.
@@ -17,13 +17,13 @@ from executive.types.perception import Detection, Frame
 
 @dataclass
 class DetectorBench:
-    """A detector, a picture, and what is known.
+    """A detector, a picture, and the expected labels.
 
     Attributes:
-        detector: is tried.
-        frame: a picture that shows something.
-        shows: names of what the detector should recognise in it, at least.
-        objects: the names that the ontology has; labels are of these.
+        detector: the detector under test.
+        frame: a picture with some object.
+        shows: labels that the detector should find in it, at least.
+        objects: the ontology's names, to which all labels belong.
     """
 
     detector: Detector
@@ -33,7 +33,7 @@ class DetectorBench:
 
 
 class DetectorContract:
-    """Each method is one promise of `Detector` and of `Detection`."""
+    """Each method tests one requirement of `Detector` and of `Detection`."""
 
     @pytest.fixture
     def found(self, detector_bench: DetectorBench) -> tuple[Detection, ...]:

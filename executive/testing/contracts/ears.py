@@ -1,4 +1,4 @@
-"""What all Ears owe the executive. An adapter's tests subclass `EarsContract`.
+"""The contract of all Ears. An adapter's tests subclass `EarsContract`.
 
 Provide a fixture `ears` that yields them.
 """
@@ -14,7 +14,7 @@ SILENT = np.zeros(RATE_HZ, dtype=np.int16)
 
 
 class EarsContract:
-    """Each method is one promise of `executive.speech.interfaces.Ears`."""
+    """Each method tests one requirement of `executive.speech.interfaces.Ears`."""
 
     @pytest.mark.parametrize(
         "sound", [SILENT[:0], SILENT[:7], SILENT, NOISE], ids=["empty", "short", "silent", "noise"]

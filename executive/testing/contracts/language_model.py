@@ -1,4 +1,4 @@
-"""What every LanguageModel owes the executive. An adapter's tests subclass `LanguageModelContract`.
+"""The contract of every LanguageModel. An adapter's tests subclass `LanguageModelContract`.
 
 Provide a fixture `model_bench` that yields a fresh `ModelBench`, and closes the model afterwards.
 """
@@ -26,14 +26,14 @@ RANK = RankRequest(
 
 @dataclass
 class ModelBench:
-    """A model that answers, and the inbox where its requests end."""
+    """A working model, and the inbox where its requests end."""
 
     model: LanguageModel
     inbox: Inbox
 
 
 class LanguageModelContract:
-    """Each method is one promise of `LanguageModel`."""
+    """Each method tests one requirement of `LanguageModel`."""
 
     def test_it_has_a_name_and_a_window(self, model_bench: ModelBench) -> None:
         assert model_bench.model.name

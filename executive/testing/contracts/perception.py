@@ -1,4 +1,4 @@
-"""What every Perception owes the executive. An adapter's tests subclass `PerceptionContract`.
+"""The contract of every Perception. An adapter's tests subclass `PerceptionContract`.
 
 Provide a fixture `perception_bench` that yields a `PerceptionBench`: a perception on a robot at
 rest that looks at something it should recognise.
@@ -17,21 +17,21 @@ from executive.types.results import Saw
 
 @dataclass
 class PerceptionBench:
-    """A perception, the inbox where what it starts ends, and names of what it should recognise."""
+    """A perception, the inbox where its requests end, and the labels that it should find."""
 
     perception: Perception
     inbox: Inbox
     shows: Collection[str]
 
     def look(self) -> Saw:
-        """Take a picture, and wait for what is seen."""
+        """Take a picture, and wait for the result."""
         result = end_of(self.inbox, self.perception.see())
         assert isinstance(result, Saw), result
         return result
 
 
 class PerceptionContract:
-    """Each method is one promise of `Perception` and of `Saw`."""
+    """Each method tests one requirement of `Perception` and of `Saw`."""
 
     def test_it_sees_what_is_there(self, perception_bench: PerceptionBench) -> None:
         labels = {detection.label for detection in perception_bench.look().detections}

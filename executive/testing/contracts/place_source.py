@@ -1,4 +1,4 @@
-"""What every PlaceSource owes the executive. An adapter's tests subclass `PlaceSourceContract`.
+"""The contract of every PlaceSource. An adapter's tests subclass `PlaceSourceContract`.
 
 Provide a fixture `source_bench` that yields a `SourceBench`.
 """
@@ -12,7 +12,7 @@ from executive.interfaces.knowledge import PlaceSource
 
 @dataclass
 class SourceBench:
-    """A source, a thing that it knows of, and where that is by it."""
+    """A source, a thing that it knows, and the thing's place according to it."""
 
     source: PlaceSource
     knows: str
@@ -20,7 +20,7 @@ class SourceBench:
 
 
 class PlaceSourceContract:
-    """Each method is one promise of `PlaceSource`."""
+    """Each method tests one requirement of `PlaceSource`."""
 
     def test_its_name_is_a_word(self, source_bench: SourceBench) -> None:
         assert source_bench.source.name.isidentifier()

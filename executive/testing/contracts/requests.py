@@ -1,4 +1,4 @@
-"""How a contract waits for what it started: each request ends once, as an event with its number."""
+"""Helpers for contracts to wait for the ends of requests."""
 
 import time
 
@@ -6,13 +6,13 @@ from executive.events import Ended, Event, Inbox
 from executive.types.results import Result
 
 PATIENCE_S = 60.0
-"""So long (real time) a request may take to end."""
+"""How long (real seconds) a request may take to end."""
 SILENCE_S = 0.2
-"""What has not come after this does not come any more, as far as a test can tell."""
+"""How long (real seconds) a test waits to see that no event comes."""
 
 
 def next_event(inbox: Inbox, patience_s: float = PATIENCE_S) -> Event | None:
-    """The next event, and no other; None if none comes in this time."""
+    """The next event, which must be the only one; None if none comes in this time."""
     latest = time.monotonic() + patience_s
     while not inbox.has_events and (left := latest - time.monotonic()) > 0:
         inbox.wait(left)
@@ -22,7 +22,7 @@ def next_event(inbox: Inbox, patience_s: float = PATIENCE_S) -> Event | None:
 
 
 def end_of(inbox: Inbox, request: int) -> Result:
-    """How this request ends, which is the only thing that happens meanwhile."""
+    """Wait for the result of this request, whose end must be the only event."""
     event = next_event(inbox)
     assert isinstance(event, Ended), f"request {request} did not end within {PATIENCE_S} s"
     assert event.request == request, f"request {request} was to end, and not {event.request}"
@@ -30,5 +30,5 @@ def end_of(inbox: Inbox, request: int) -> Result:
 
 
 def is_silent(inbox: Inbox) -> bool:
-    """Whether nothing comes for a moment, and nothing is awaited."""
+    """Whether no event comes for a moment, and no request is open."""
     return next_event(inbox, SILENCE_S) is None and not inbox.awaits_anything

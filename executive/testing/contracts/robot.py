@@ -1,4 +1,4 @@
-"""What every Robot owes the executive. An adapter's tests subclass `RobotContract`.
+"""The contract of every Robot. An adapter's tests subclass `RobotContract`.
 
 Provide a fixture `bench` that yields a fresh `Bench`: the robot at rest beside the person, with an
 empty hand, an inbox, and a way to let time pass.
@@ -20,33 +20,33 @@ from executive.types.results import Failed, Result, Succeeded
 
 PATIENCE_S = 90.0
 MOVING_S = 0.4
-"""After this, whatever is to move does."""
+"""After this time (s), a started motion is visible."""
 TELLING, TELLING_S = 0.15, 0.5
-"""How well it has to know how long a drive takes: to this part of it, and so many seconds."""
+"""The tolerance of estimated durations of drives: this share, plus this many seconds."""
 REST_S = 0.6
-"""After this (half a second, and a bit) it is at rest."""
+"""After this time (s), half a second and a margin, a halted robot is at rest."""
 
 
 @dataclass
 class Bench:
-    """A robot, its inbox, and what makes time pass (seconds; returns how many did)."""
+    """A robot, its inbox, and a function that advances time by at most these seconds."""
 
     robot: Robot
     inbox: Inbox
     advance: Callable[[float], float]
     place: str = "coffee_table"
-    """A place of the home to try things at."""
+    """A place of the home for the tests."""
     bare: str = "desk"
-    """A place of the home where no mug is."""
+    """A place of the home without a mug."""
     moving: Callable[[], Sequence[str]] = tuple
-    """Which parts of the robot move now, where that can be measured."""
+    """Returns the parts of the robot that are moving, if that can be measured."""
 
     def end_of(self, request: int) -> Result:
-        """Let time pass until this request ends."""
+        """Advance time until this request ends; return its result."""
         return self.timed_end_of(request)[0]
 
     def timed_end_of(self, request: int) -> tuple[Result, float]:
-        """The same, and how much time passed (s)."""
+        """The same, with the time that it took (s)."""
         passed = 0.0
         while passed < PATIENCE_S:
             for event in self.inbox.take_all():
@@ -56,24 +56,24 @@ class Bench:
         raise AssertionError(f"no end within {PATIENCE_S} s")
 
     def wait(self, seconds: float) -> None:
-        """Let so much time pass."""
+        """Advance time."""
         passed = 0.0
         while passed < seconds:
             passed += self.advance(seconds - passed) or 0.01
 
     def do(self, goal: Goal) -> Result:
-        """Pursue a goal to its end."""
+        """Pursue a goal until it ends; return the result."""
         return self.end_of(self.robot.start(goal))
 
 
 def nothing_there() -> Detection:
-    """A detection of a mug in mid-air, far away."""
+    """A detection of a mug in mid-air, out of reach."""
     points = np.tile(np.array([[100.0, 100.0, 1.0]], np.float32), (50, 1))
     return Detection("mug", 1.0, Box(0, 0, 5, 10), np.ones((10, 5), np.bool_), points)
 
 
 class RobotContract:
-    """Each method is one promise of `Robot`."""
+    """Each method tests one requirement of `Robot`."""
 
     def test_starting_returns_at_once_and_the_end_comes_as_an_event(self, bench: Bench) -> None:
         request = bench.robot.start(DriveTo(bench.place))

@@ -1,4 +1,4 @@
-"""What every Sink owes the recorder. An adapter's tests subclass `SinkContract`.
+"""The contract of every Sink. An adapter's tests subclass `SinkContract`.
 
 Provide a fixture `sink_bench` that yields a `SinkBench` with a fresh log.
 """
@@ -17,11 +17,11 @@ from logs.recorder import Sink, Stamp
 
 @dataclass
 class SinkBench:
-    """A log.
+    """A log under test.
 
     Attributes:
         make: opens it.
-        kept: how much can be read of it now, from the file or wherever it lies, by any measure.
+        kept: how much can be read from it now, in any unit that grows.
     """
 
     make: Callable[[], Sink]
@@ -30,24 +30,24 @@ class SinkBench:
 
 @cache
 def a_mission() -> tuple[Record, ...]:
-    """All that is recorded of a mission in the instant world."""
+    """All records of a mission in the instant world."""
     return tuple(run_mission("Bring a sugar_box").notebook.records)
 
 
 def write(sink: Sink, records: Sequence[Record]) -> None:
-    """Write them, ten in a second."""
+    """Write the records with timestamps 0.1 s apart."""
     for number, record in enumerate(records):
         sink.write(Stamp(number / 10, 1_700_000_000_000_000_000 + number * 100_000_000), record)
 
 
 def elsewhere(work: Callable[[], object]) -> None:
-    """Do it in a thread of its own, as the recorder does everything but the making."""
+    """Do this on another thread, as the recorder does everything but opening a sink."""
     with ThreadPoolExecutor(1) as thread:
         thread.submit(work).result()
 
 
 class SinkContract:
-    """Each method is one promise of `logs.recorder.Sink`."""
+    """Each method tests one requirement of `logs.recorder.Sink`."""
 
     def test_it_keeps_a_mission_written_in_another_thread(self, sink_bench: SinkBench) -> None:
         sink = sink_bench.make()

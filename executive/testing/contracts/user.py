@@ -1,4 +1,4 @@
-"""What every User owes the executive. An adapter's tests subclass `UserContract`.
+"""The contract of every User. An adapter's tests subclass `UserContract`.
 
 Provide a fixture `user_bench` that yields a fresh `UserBench`.
 """
@@ -25,18 +25,18 @@ ODD = ("", "\x1b[2J\r\n", "\udcff \N{SNOWMAN}", "word " * 5000)
 
 
 def _by_themselves(words: str) -> None:
-    """They say what they like."""
+    """Do nothing: the user chooses the answer."""
 
 
 @dataclass
 class UserBench:
-    """Somebody to ask, and the inbox where questions end.
+    """A user, and the inbox where questions end.
 
     Attributes:
-        user: is tried.
-        inbox: theirs.
-        will_say: has them say this when they are asked next; for who follows a script.
-        says: has them say this now; for who listens to a person.
+        user: the user under test.
+        inbox: the inbox of the user.
+        will_say: sets the next answer, for users with a script.
+        says: gives the answer now, for users who listen to a person.
     """
 
     user: User
@@ -46,11 +46,11 @@ class UserBench:
 
     @property
     def repeats(self) -> bool:
-        """Whether they say what they are told to."""
+        """Whether the answer can be chosen."""
         return self.will_say is not _by_themselves or self.says is not _by_themselves
 
     def ask(self, question: Question, answer: str = "on the desk") -> Event | None:
-        """Put a question, have this answered, and wait for what comes."""
+        """Ask a question, give this answer, and wait for the event."""
         self.will_say(answer)
         self.user.ask(question)
         self.says(answer)
@@ -58,7 +58,7 @@ class UserBench:
 
 
 class UserContract:
-    """Each method is one promise of `User`."""
+    """Each method tests one requirement of `User`."""
 
     @pytest.mark.parametrize("question", QUESTIONS, ids=lambda question: question.kind)
     def test_a_question_of_any_kind_is_answered_or_fails_in_words(
