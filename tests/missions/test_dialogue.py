@@ -9,8 +9,8 @@ from talking import session_in, session_of, told
 
 from executive.app.session import Session
 from executive.replay.replaying import replay
-from executive.types.home import DELIVERY
 from executive.types.goals import DriveTo
+from executive.types.home import DELIVERY
 from executive.types.outcome import MissionStatus, Outcome
 
 Talk = Callable[..., Session]
