@@ -1,7 +1,7 @@
-"""The events that wake the executive, and the inbox that holds them until they are read.
+"""Everything that can wake the executive, and the one box where it waits to be read.
 
-Slow work (a drive, a grasp, a picture, a reply, an answer) is opened here as a request, goes on
-elsewhere, and ends as an `Ended` event. The Inbox is the only object that threads share.
+Slow things (a drive, a grasp, a picture, a reply, an answer) are opened here as a request, go on
+elsewhere, and end as an `Ended` event. The Inbox is the only thing that threads share.
 """
 
 import math
@@ -23,12 +23,11 @@ from executive.types.results import Answered, Failed, Replied, Result, Saw, Scor
 T = TypeVar("T")
 
 HEEDING_S = 0.2
-"""The longest single sleep (real seconds): Python handles a signal that comes just before a sleep
-only after it."""
+"""The longest sleep at a stretch (real time): a signal just before it is heeded only after it."""
 THE_PERSON = "the person"
-"""The source of a stop in words."""
+"""Who says stop in words."""
 EXPERIMENTER = "the experimenter"
-"""The source of a stop in the experimenter's page; a name follows it, if they gave one."""
+"""Who says stop in the experimenter's page; their name comes after it, if they gave one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,78 +47,78 @@ class Ended:
 
 @dataclass(frozen=True, slots=True)
 class DeadlinePassed:
-    """The deadline of a behaviour has passed (mission time, seconds)."""
+    """The time that some behaviour waited for has come (mission time, seconds)."""
 
     time: float
 
 
 @dataclass(frozen=True, slots=True)
 class StopRequested:
-    """A request to stop the robot: Ctrl-C, SIGTERM, the word "stop", or an experimenter."""
+    """Someone wants the robot at rest: Ctrl-C, SIGTERM, the word "stop", or an experimenter."""
 
     by: str
 
     @property
     def ends_session(self) -> bool:
-        """Whether it ends the session, as a signal does; a person or experimenter may go on."""
+        """Whether it is for good, as a signal is: who talks with the robot may go on."""
         return self.by != THE_PERSON and not self.is_of_experimenter
 
     @property
     def is_of_experimenter(self) -> bool:
-        """Whether it comes from an experimenter."""
+        """Whether an experimenter said so."""
         return self.by.startswith(EXPERIMENTER)
 
 
 @dataclass(frozen=True, slots=True)
 class Heard:
-    """The person said something that is not an answer to a question, during a mission."""
+    """The person said something that answers no question, while the robot is at something."""
 
     words: str
 
 
 @dataclass(frozen=True, slots=True)
 class HandFelt:
-    """What the fingers feel has changed: True: something, False: nothing, None: unknown."""
+    """What the fingers feel is not what they felt before: something, nothing; None: no telling."""
 
     holding: bool | None
 
 
 @dataclass(frozen=True, slots=True)
 class Broke:
-    """An internal error, in words, as a clause: the mission cannot go on."""
+    """The program itself failed, and why, as a clause: the mission cannot go on."""
 
     reason: str
 
 
 class Deed(StrEnum):
-    """What an experimenter may do in place of the person or the robot."""
+    """What an experimenter may do in somebody's stead."""
 
     ANSWER = "answer"
-    """Answer a question in place of the person."""
+    """Answer a question in the person's stead."""
     HOLD = "hold"
-    """From now on hold what the robot says (`on`), or release it (`off`)."""
+    """Hold what the robot says from here on, or let it go."""
     WORDS = "words"
-    """Release a held sentence, unchanged or changed; empty: do not say it."""
+    """Let a sentence go that was held, as it was or otherwise; empty: it is never said."""
     PLACE = "place"
-    """Send the robot to another place: on its way to look, or while its choice is held."""
+    """Send the robot elsewhere than it would go: on its way to look, or where its choice waits."""
     HOLD_PLACE = "hold_place"
-    """From now on hold the robot's choices of places (`on`), or release them (`off`)."""
+    """Hold what the robot chooses from here on of places (`on`), or let it go (`off`)."""
     STOP = "stop"
 
 
 ON, OFF = "on", "off"
-"""The values of `HOLD` and `HOLD_PLACE`."""
+"""What becomes of `HOLD` and `HOLD_PLACE`."""
 
 
 @dataclass(frozen=True, slots=True)
 class Intervened:
-    """An experimenter intervened.
+    """An experimenter stepped in.
 
     Attributes:
-        by: name of the experimenter.
-        deed: the kind of intervention: a `Deed`.
-        was: the question, the robot's own sentence, or the place that it had chosen.
-        became: the answer, the sentence as it was said, or the place where it was sent.
+        by: who.
+        deed: what was done: a `Deed`.
+        was: the question; the sentence as the robot made it; the place that it had chosen.
+        became: the answer; the sentence as it was said; the place where it was sent.
     """
 
     by: str
@@ -130,13 +129,13 @@ class Intervened:
 
 @dataclass(frozen=True, slots=True)
 class Listened:
-    """Speech was recognised, or not; its effect is an event of its own.
+    """Ears understood something; what comes of it is an event of its own.
 
     Attributes:
-        by: name of the recogniser.
+        by: which ears.
         text: the words; empty if there were none.
-        confidence: in [0, 1]; 0 if the recogniser gives none.
-        became: how it was handled: "certain", "asked back", ...
+        confidence: between 0 and 1; 0 if the ears cannot tell.
+        became: what was made of it: "certain", "asked back", ...
     """
 
     by: str
@@ -147,9 +146,9 @@ class Listened:
 
 @dataclass(frozen=True, slots=True)
 class BodyTold:
-    """A sentence from the robot's body for the person; the body's request goes on.
+    """The robot's body has something to tell the person, a sentence, and goes on with what it does.
 
-    For example: the connection is lost and waited for, or is back.
+    So is told that a link is lost and waited for, and that it is back.
     """
 
     words: str
@@ -171,20 +170,20 @@ Event = (
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Computed:
-    """The end of a computation. It is not an event and causes no tick; its sequel may post one."""
+    """Not an event: nobody ticks for it. Its sequel may post one."""
 
     computation: Computation[Any]
 
 
 class Inbox:
-    """The queue of events for the ticking thread, with open requests and computations.
+    """Events on their way to the thread that ticks, and what is computed for it meanwhile.
 
-    `post` may be called from any thread and from a signal handler (SimpleQueue is re-entrant);
-    `hear` and `end` from any thread; everything else only from the ticking thread.
+    `post` may be called from any thread and from a signal handler (SimpleQueue is re-entrant), and
+    `hear` and `end` from any thread; the rest belongs to the thread that ticks.
     """
 
     def __init__(self) -> None:
-        """Make an inbox without events or requests."""
+        """Make an empty box with nothing under way."""
         self._queue: queue.SimpleQueue[Event | _Computed] = queue.SimpleQueue()
         self._taken: deque[Event] = deque()
         self._open: dict[int, bool] = {}
@@ -193,43 +192,43 @@ class Inbox:
         self._wanted: dict[Computation[Any], tuple[Callable[[], None], int | None]] = {}
 
     def open(self, *, real: bool = False) -> int:
-        """Open a request; return its number. `real` if its end takes real time (person, model)."""
+        """Number a new request; `real` if a person or a model, not the simulator, will end it."""
         self._last += 1
         self._open[self._last] = real
         return self._last
 
     def drop(self, request: int) -> None:
-        """Close a cancelled request: its end, if it still comes, is not delivered.
+        """Forget a cancelled request: its end, should it still come, is not delivered.
 
-        Computations for it are abandoned.
+        What is computed for it is given up.
         """
         self._open.pop(request, None)
         for computation in [c for c, (_, of) in self._wanted.items() if of == request]:
             self.give_up(computation)
 
     def drop_all(self) -> None:
-        """Close all open requests, as `drop` does."""
+        """Forget every request that is under way: what was asked for is not wanted any more."""
         for request in tuple(self._open):
             self.drop(request)
 
     def fail(self, request: int, reason: str) -> None:
-        """End a request as Failed; it is delivered even if the request was dropped."""
+        """End a request as Failed for one who cannot: it counts, even if it was dropped."""
         self._open[request] = False
         self.end(request, Failed(reason))
 
     def post(self, event: Event) -> None:
-        """Add an event and wake the thread that waits."""
+        """Put an event in the box and wake whoever waits."""
         self._queue.put(event)
 
     def hear(self, words: str) -> None:
-        """Post what the person says without being asked; words that say stop become a stop."""
+        """Post what the person says unasked, from any thread; what says stop is a stop."""
         said = writable(words)
         self.post(StopRequested(THE_PERSON) if control(said) else Heard(said))
 
     def end(self, request: int, result: Result) -> None:
-        """Post the end of a request; a value that is not a `Result` becomes Failed.
+        """Post the end of a request; what is no result is Failed.
 
-        An answer that says stop becomes a stop.
+        An answer that says stop is a stop, whoever was asked.
         """
         result = _fit(result)
         stops = isinstance(result, Answered) and control(result.text)
@@ -237,21 +236,21 @@ class Inbox:
 
     @property
     def last(self) -> int:
-        """Number of the last request that was opened; 0 if none was."""
+        """Number of the last request that was opened (0: none yet)."""
         return self._last
 
     @property
     def awaits_real(self) -> bool:
-        """Whether an open request takes real time (a person, a model)."""
+        """Whether something that takes real time (a person, a model) is under way."""
         return any(self._open.values())
 
     @property
     def awaits_anything(self) -> bool:
-        """Whether any request is open."""
+        """Whether any request is under way."""
         return bool(self._open)
 
     def is_open(self, request: int) -> bool:
-        """Whether this request was neither dropped, nor ended and its end taken."""
+        """Whether this request was neither ended (and its end taken) nor dropped."""
         return request in self._open
 
     def compute(
@@ -261,13 +260,13 @@ class Inbox:
         sequel: Callable[[Computation[T]], None],
         request: int | None = None,
     ) -> Computation[T]:
-        """Queue a computation, during which mission time stands still.
+        """Have something computed, while mission time stands still.
 
         Args:
-            worker: runs it, as soon as the ticking thread sleeps.
-            work: the computation; it runs on the worker's thread.
-            sequel: called on the ticking thread when the work has ended.
-            request: the request that it is for; if that is dropped, `sequel` is not called.
+            worker: who does it, as soon as the ticking thread sleeps.
+            work: what.
+            sequel: done by the ticking thread when it wakes.
+            request: for which it is; where that is dropped, there is no sequel.
         """
         computation = Computation(work)
         self._ready.append((worker, computation))
@@ -275,24 +274,21 @@ class Inbox:
         return computation
 
     def give_up(self, computation: Computation[T]) -> None:
-        """Abandon a computation; its sequel will not be called."""
+        """Nobody waits for it any more: there will be no sequel."""
         computation.given_up = True
         self._wanted.pop(computation, None)
 
     @property
     def computes(self) -> bool:
-        """Whether any computation is queued or running that was not abandoned."""
+        """Whether something is computed that is still wanted."""
         self._collect()
         return bool(self._wanted)
 
     def await_computed(self, seconds: float) -> bool:
-        """Sleep until all computations have ended, or a stop or a message of the body has come.
+        """Sleep until all is computed or someone says stop; False if the real time is up first.
 
-        Other events have to wait, since it depends on the machine's speed which of them come before
-        the end. A message of the body does not: it comes just when a computation takes long.
-
-        Returns:
-            False if `seconds` of real time passed first.
+        Other events wait: which of them would come before the end is the machine's chance. But a
+        body has something to tell just when it takes long.
         """
         latest = time.monotonic() + seconds
         while self.computes and not self._waits(StopRequested, BodyTold):
@@ -303,11 +299,7 @@ class Inbox:
         return True
 
     def wait(self, seconds: float | None) -> bool:
-        """Sleep until there is an event or the time (real seconds; None: no limit) is up.
-
-        Returns:
-            Whether there is an event.
-        """
+        """Sleep until an event is there or the time (real seconds; None: no limit) is up."""
         if self._collect():
             return True
         self._sleep(seconds)
@@ -320,18 +312,18 @@ class Inbox:
 
     @property
     def stop_waits(self) -> bool:
-        """Whether a stop is waiting to be taken."""
+        """Whether someone said stop, and nobody has heard it yet."""
         return self._waits(StopRequested)
 
     def _waits(self, *kinds: type) -> bool:
-        """Whether an event of these types is waiting to be taken."""
+        """Whether there is such an event, and nobody has taken it yet."""
         self._collect()
         return any(isinstance(event, kinds) for event in self._taken)
 
     def take_all(self) -> tuple[Event, ...]:
-        """Take all events, oldest first.
+        """Empty the box, oldest first.
 
-        Ends of dropped requests, and second ends of the same request, are left out.
+        Ends of dropped requests are left out, and so is a second end of the same request.
         """
         self._collect()
         events = tuple(event for event in self._taken if self._close(event))
@@ -339,13 +331,13 @@ class Inbox:
         return events
 
     def _close(self, event: Event) -> bool:
-        """Whether to deliver the event; an `Ended` closes its request."""
+        """Whether the event counts; an end closes its request."""
         if not isinstance(event, Ended):
             return True
         return self._open.pop(event.request, None) is not None
 
     def _collect(self) -> bool:
-        """Move posted events to `_taken`, drop ends of dropped requests; return if any are left."""
+        """Move what was posted to the taken side, less the ends of dropped requests."""
         while True:
             try:
                 self._receive(self._queue.get_nowait())
@@ -357,7 +349,7 @@ class Inbox:
         return bool(self._taken)
 
     def _sleep(self, seconds: float | None) -> None:
-        """Start the queued computations, and sleep until something is posted or the time is up."""
+        """Have computed what is ready, until something comes or the time is up."""
         while self._ready:
             worker, computation = self._ready.popleft()
             if computation in self._wanted:
@@ -377,7 +369,7 @@ class Inbox:
 
 
 def _fit(result: Result) -> Result:
-    """The result with its texts made valid UTF-8; Failed if it is not a result."""
+    """The result with texts that can be written down, whoever made it."""
     match result:
         case Failed(reason):
             return replace(result, reason=_text(reason))

@@ -31,7 +31,7 @@ _LONG_NUMBER = re.compile(r"\d[\d_]{639,}")
 _SHOWN = 60
 """Messages show this many characters of a wrong key."""
 _MOST_SHOWN = 80
-"""Messages show this many characters of a wrong value."""
+"""Likewise of a value."""
 _PYTHONS = re.compile(
     r"\btuple\b|\bdictionary( or instance of \w+)?\b| after validation|Value error, ", re.IGNORECASE
 )

@@ -1,4 +1,4 @@
-"""The current command, as far as it is understood."""
+"""What is asked for, as far as it is understood."""
 
 from dataclasses import asdict, dataclass, field
 from typing import Any
@@ -8,7 +8,7 @@ from executive.types.commands import Command, CommandKind
 
 
 def command_as_logged(command: Command | None) -> dict[str, Any] | None:
-    """A command as JSON for the log, without empty fields, as in recordings that lack them."""
+    """What was not said is left out, as in earlier recordings, whose commands had no places."""
     if command is None:
         return None
     always = ("kind", "target", "words")
@@ -17,32 +17,32 @@ def command_as_logged(command: Command | None) -> dict[str, Any] | None:
 
 
 def _less_plural(fields: list[tuple[str, Any]]) -> dict[str, Any]:
-    """Leave out `plural`: earlier recordings do not have it, and `number` says the same."""
+    """Earlier recordings did not have it, and it is told by the number once that is known."""
     return {name: value for name, value in fields if name != "plural"}
 
 
 @dataclass
 class Request:
-    """What the person wants; fields are in the order in which they become known."""
+    """What the person wants, in the order in which it becomes known."""
 
     words: str = ""
     command: Command | None = field(default=None, metadata=logged_as(plain=command_as_logged))
     remark: str = ""
-    """The reply to the words if they were parsed and are not a command to carry out."""
+    """What to say of the words if they were read, and are no command to carry out."""
     options: tuple[str, ...] = ()
     """Objects that the target may mean."""
     several: bool = False
     """Whether the target names several things at once."""
     guess: str = ""
-    """A known name that the target may misspell, or that is the only known part of it."""
+    """A known name that the target may be a slip of, or that is all of it that is known."""
     object: str | None = None
     from_places: tuple[str, ...] = ()
-    """The furniture where the thing is, as the words say, the likeliest first."""
+    """The furniture where the thing is by the words, the likeliest first."""
     goals: tuple[str, ...] = ()
-    """The acceptable furniture for the goal of the thing, or of the robot, the best first."""
+    """The furniture that will do as the place where it, or the robot, is to go, the best first."""
     goal: str = ""
-    """The one of `goals` that the robot has chosen."""
+    """That of them which the robot has chosen."""
 
     def asks_to(self, kind: CommandKind) -> bool:
-        """Whether the current command is of this kind."""
+        """Whether this kind of deed was asked for."""
         return self.command is not None and self.command.kind == kind

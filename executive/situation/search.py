@@ -1,4 +1,4 @@
-"""The state of a search: where the thing may be, was looked for, and was seen."""
+"""Where the thing may be, where it was looked for, and where it was seen."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -18,9 +18,9 @@ class Consultation:
     """One exchange with the language model about where a thing may be."""
 
     reply: str = ""
-    """The model's last reply."""
+    """What it last wrote."""
     names: tuple[str, ...] = ()
-    """The names of places in the reply, not yet verified."""
+    """The places that the reply names, not yet verified."""
     furniture: list[str] = field(default_factory=list)
     """Places that passed the verification."""
     rooms: list[str] = field(default_factory=list)
@@ -30,12 +30,12 @@ class Consultation:
 
 
 def _position(detection: Detection | None) -> list[float] | None:
-    """Position in `map` (metres); empty if it is not known, None without a detection."""
+    """Where it is in `map` (metres); empty if that is not known, None if it was not seen."""
     return list(detection.position or ()) if detection else None
 
 
 def _guess(detection: Detection | None) -> dict[str, Any] | None:
-    """Label and confidence of a detection, as JSON for the log."""
+    """What may have been seen, and how surely."""
     if detection is None:
         return None
     return {"label": detection.label, "confidence": detection.confidence}
@@ -43,34 +43,34 @@ def _guess(detection: Detection | None) -> dict[str, Any] | None:
 
 @dataclass
 class Search:
-    """The state of the search for one thing."""
+    """From places where the thing may be to the place where it is."""
 
     default_locations: tuple[str, ...] = field(default=(), metadata=logged_as("among"))
     """The ontology's default locations for the object."""
     consultation: Consultation = field(default_factory=Consultation)
     candidates: tuple[Candidate, ...] = ()
     candidate: Candidate | None = None
-    """The place to which the robot drives, or at which it looks, now."""
+    """Where the robot is going or looking now."""
     sent_to: str = ""
-    """The place where an experimenter wants the robot to look next; empty if there is none."""
+    """Where an experimenter wants the robot to look next; empty if nobody does."""
     view: int = 0
-    """The number of the head pose, at the place that it looks at."""
+    """The part of the place that it looks at."""
     looks: Looks = field(default_factory=Looks, metadata=PART)
-    """The results of the looks so far."""
+    """Where the thing was looked for, and what came of it."""
     whereabouts: Whereabouts = field(default_factory=Whereabouts, metadata=PART)
-    """Belief and plan, if the search follows a plan."""
+    """Where it may be, if it is searched by a plan."""
     doubtful: Detection | None = field(default=None, metadata=logged_as(plain=_guess))
-    """In the last picture, an unsure detection of the thing or of a part of it; else None."""
+    """What may be the thing, or a part of it, in the last picture; None if it was surely seen."""
     detection: Detection | None = field(default=None, metadata=logged_as("sighting", _position))
-    """The last detection of the thing."""
+    """The thing, as last seen."""
     found: Candidate | None = None
-    """The place where the thing was seen."""
+    """Where the thing was seen."""
     gone: bool = False
-    """Whether the thing was seen and then had gone."""
+    """Whether the thing was seen, and then was there no more."""
 
     @property
     def goes_on(self) -> bool:
-        """Whether the robot drives to a candidate, or looks there, and has not found the thing."""
+        """Whether the robot is on its way to look, or looks, and has not seen the thing."""
         return self.candidate is not None and self.found is None
 
     @property
@@ -79,16 +79,16 @@ class Search:
         return self.found is not None and self.found.place == DELIVERY
 
     def look_first(self, candidate: Candidate) -> None:
-        """Put this candidate first, before the others."""
+        """Look there next, and then where it was to be looked anyway."""
         others = (other for other in self.candidates if other.place != candidate.place)
         self.candidate, self.candidates = candidate, (candidate, *others)
 
     def not_visited(self, candidates: Iterable[Candidate]) -> tuple[Candidate, ...]:
-        """The candidates without the places that the robot has visited."""
+        """The candidates less the places where the robot has looked already."""
         return tuple(c for c in candidates if c.place not in self.looks.visited)
 
     def so_far(self, thing: str | None, say: Wording) -> str:
-        """Where the robot looked for the thing in vain, as a clause; empty if nowhere."""
+        """Where the thing was looked for in vain, as a clause; empty if nowhere."""
         return "; ".join(self.looks.clauses(thing or "thing", say))
 
 

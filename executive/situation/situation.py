@@ -1,4 +1,4 @@
-"""The state of a mission: the one place that behaviours read from and write to."""
+"""What this mission knows so far: the one place that behaviours read from and write to."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, is_dataclass, replace
@@ -41,10 +41,10 @@ ONE_AT_A_TIME = "I took it, and put it away again: I hold one thing at a time"
 
 @dataclass
 class Situation:
-    """The state of one mission, in parts.
+    """Facts of one mission, in parts.
 
-    The loop folds events in before each tick; behaviours set everything else. What was found out
-    for one task is reset when the next task begins.
+    Events are folded in by the loop before each tick; everything else is set by behaviours. Of
+    several tasks, what is found out for one is forgotten when the next begins.
     """
 
     agenda: Agenda = field(default_factory=Agenda, metadata=PART)
@@ -59,7 +59,7 @@ class Situation:
 
     @classmethod
     def at_start(cls, words: str = "", before: Before = FIRST) -> Self:
-        """The state before the first tick: the person's words, and what earlier missions left."""
+        """What is known before the first tick: the words, and how things stood before them."""
         return cls(
             request=Request(words),
             hand=Hand(in_hand=before.in_hand),
@@ -68,7 +68,7 @@ class Situation:
         )
 
     def at_end(self, before: Before) -> Before:
-        """The state that the mission leaves to the next; `before` is the state at its start."""
+        """How the robot stands after the mission; `before` is how things stood at its start."""
         stands = self.dialogue.stands
         return replace(
             before,
@@ -79,7 +79,7 @@ class Situation:
         )
 
     def fold(self, event: Event) -> None:
-        """Update the state from an event."""
+        """Take in what happened."""
         match event:
             case Started(words):
                 self.request.words = words
@@ -107,7 +107,7 @@ class Situation:
                 pass
 
     def begin(self, command: Command) -> None:
-        """Begin a task; what was found out for the task before is reset."""
+        """Turn to a task: what was found out for another one counts no more."""
         hand = self.hand
         held = Hand(in_hand=hand.in_hand, felt=hand.felt, reached_for=hand.reached_for)
         _renew(self.request, Request(self.request.words, command))
@@ -118,12 +118,12 @@ class Situation:
         self.dialogue.no_help = ""
 
     def end_task(self) -> None:
-        """Keep the outcome of the current task, unless there is none or it was just split."""
+        """What came of the task at hand is settled, if there is one that is not done in parts."""
         if self.request.command and not self._is_split:
             self.agenda.end(self._of_task(self.request.command))
 
     def conclude(self) -> None:
-        """Set status and reason of a mission with several tasks: done if all of them were done."""
+        """Settle how the whole ended, if there was more than one task: done if all of them were."""
         self.agenda.ended = ended = list(self._held_still(self.agenda.ended))
         if len(ended) > 1 or any(task.parts for task in ended):
             all_done = all(task.status == MissionStatus.DONE for task in ended)
@@ -131,39 +131,39 @@ class Situation:
             self.ending.reason = task_by_task(ended) if len(ended) > 1 else ended[0].reason
 
     def _held_still(self, ended: Sequence[TaskOutcome]) -> Iterator[TaskOutcome]:
-        """The same outcomes, but "take" is not done if the thing was put away for another."""
+        """The same; what was taken, and put away again for another thing, is not held."""
         for number, task in enumerate(ended, start=1):
             taken = task.kind == CommandKind.TAKE and task.status == MissionStatus.DONE
             if not taken or task.object == self.hand.in_hand:
                 yield task
             elif any(later.object == task.object for later in ended[number:]):
-                yield task  # a later task put it somewhere
+                yield task  # it was to be put somewhere
             else:
                 yield replace(task, status=MissionStatus.NOT_DONE, reason=ONE_AT_A_TIME)
 
     @property
     def has_it(self) -> bool:
-        """Whether the requested object is in the hand."""
+        """Whether what was asked for is in the hand."""
         return self.hand.in_hand is not None and self.hand.in_hand == self.request.object
 
     def saved(self) -> Self:
-        """A deep copy, for `restore`."""
+        """A copy, for `restore`."""
         twin: Self = _copied(self)
         return twin
 
     def restore(self, saved: Self) -> None:
-        """Go back to a saved state. The parts stay the same objects, since behaviours hold them."""
+        """Know again what was known then, and nothing else; the parts are the same as before."""
         for name, part in vars(self).items():
             vars(part).update(vars(getattr(saved, name)))
 
     def snapshot(self) -> dict[str, Any]:
-        """The state as JSON for the log: plain values, no pictures."""
+        """Everything that fits in a log line: plain values, no pictures."""
         return snapshot(self)
 
     def outcome(self, *, mission_time_s: float, wall_time_s: float, run_dir: str | None) -> Outcome:
         """The mission's result."""
         found = self.search.found
-        if self.ending.decided and self.agenda.ended:  # the request may be a part that nobody said
+        if self.ending.decided and self.agenda.ended:  # its last part is none of what was said
             last: Command | TaskOutcome | None = self.agenda.ended[-1]
         else:
             last = self.request.command
@@ -190,12 +190,12 @@ class Situation:
         )
 
     def _visited(self) -> tuple[str, ...]:
-        """The visited places of all tasks, those of the current one only once."""
+        """In all tasks: what the one at hand has visited is in those that ended when it has."""
         at_hand = () if self.agenda.ended and not self._is_at_hand else self.search.looks.visited
         return (*self.agenda.visited(), *at_hand)
 
     def _unfinished(self) -> Iterator[TaskOutcome]:
-        """The current task, and those not begun, if the mission was cut short."""
+        """The task at hand, and those not begun, if the mission was cut short."""
         command, wholes, tasks = self.request.command, self.agenda.wholes, self.agenda.tasks
         at_hand = [self._of_task(command)] if self._is_at_hand and command else []
         if wholes:
@@ -214,13 +214,13 @@ class Situation:
 
     @property
     def _is_split(self) -> bool:
-        """Whether the current task was split, and none of its parts has begun."""
+        """Whether the task at hand is done in parts, none of which was begun yet."""
         wholes = self.agenda.wholes
         return bool(wholes) and wholes[-1].command is self.request.command
 
     @property
     def _is_at_hand(self) -> bool:
-        """Whether a task has begun and not ended."""
+        """Whether a task was begun that has not ended."""
         return self.request.command is not None and not self.ending.decided
 
     def _of_task(self, command: Command) -> TaskOutcome:
@@ -241,7 +241,7 @@ class Situation:
 
 
 def task_by_task(ended: Sequence[TaskOutcome]) -> str:
-    """The reasons of several tasks, numbered, a sentence each."""
+    """What came of each of several tasks, numbered, a sentence each."""
     return " ".join(
         f"{number}. {'' if task.status == MissionStatus.DONE else 'Not done: '}{_ended(task)}"
         for number, task in enumerate(ended, start=1)
@@ -253,12 +253,12 @@ def _ended(task: TaskOutcome) -> str:
 
 
 def _renew(part: Any, fresh: Any) -> None:
-    """Reset a part in place: behaviours hold the object."""
+    """Make a part as a fresh one; it stays the same object, which behaviours hold."""
     vars(part).update(vars(fresh))
 
 
 def _copied(value: Any) -> Any:
-    """A deep copy of lists, sets, dictionaries and mutable dataclasses; other values are shared."""
+    """A copy of what may be changed in place; the rest as it is."""
     kind = value.__class__
     if kind is list or kind is set:
         return kind(map(_copied, value))
@@ -273,5 +273,5 @@ def _copied(value: Any) -> Any:
 
 @cache
 def _changes(kind: type) -> bool:
-    """Whether this type is a dataclass that is not frozen."""
+    """Whether things of this type are dataclasses whose fields may be set."""
     return is_dataclass(kind) and not kind.__dataclass_params__.frozen  # type: ignore[attr-defined]
