@@ -1,4 +1,4 @@
-"""How figures stand in the cells of a report's tables: ours, and the paper's in brackets."""
+"""Formats figures for the cells of a report's tables: ours, and the paper's in brackets."""
 
 from collections.abc import Callable, Sequence
 from statistics import fmean
@@ -26,14 +26,14 @@ def situation(defaults: bool) -> str:
 
 
 def interval(summary: Summary, digits: int) -> str:
-    """From the low to the high end; a single command has none."""
+    """The interval as text; "-" for a single command."""
     if summary.groups < 2:
         return "-"
     return f"{summary.low:.{digits}f} to {summary.high:.{digits}f}"
 
 
 def mean_of(rows: Sequence[Row], column: Column) -> str:
-    """Of at least one mission."""
+    """The mean of a column over at least one mission."""
     return f"{fmean(map(column, rows)):.2f}"
 
 
@@ -44,17 +44,17 @@ def mean_beside(rows: Sequence[Row], column: Column, theirs: float | None, digit
 
 
 def of_paper(variant: Variant, figure: float | None) -> float | None:
-    """The paper's figure, where it is of the same commands and home."""
+    """The paper's figure, if commands and home are the same; else None."""
     return figure if variant.as_in_paper else None
 
 
 def in_brackets(variant: Variant, figure: str) -> str:
-    """The paper's figure, to stand behind ours; empty where commands or home are others."""
+    """The paper's figure in brackets; empty if commands or home differ."""
     return f" ({figure})" if variant.as_in_paper else ""
 
 
 def p_value(comparison: Comparison[Any]) -> str:
-    """With its stars, and how many pairs it rests on."""
+    """The p value with its stars and the number of pairs."""
     p = "< 0.001" if comparison.p < 0.001 else f"{comparison.p:.3f}"
     return f"{p} {stars(comparison.p)} (n = {comparison.pairs})".replace("  ", " ")
 
@@ -62,7 +62,7 @@ def p_value(comparison: Comparison[Any]) -> str:
 def each_variant(
     found: Sequence[Variant], heads: Sequence[str], lines: Callable[[Variant], Lines]
 ) -> Table:
-    """One table of all variants, named in a column of their own if there are several."""
+    """One table of all variants, with a column for their names if there are several."""
     if len(found) == 1:
         return Table(heads, lines(found[0]))
     named = [[variant.name, *line] for variant in found for line in lines(variant)]

@@ -1,4 +1,4 @@
-"""Tables that set variants of a campaign beside each other: policies, homes and models."""
+"""Tables that compare variants of a campaign: policies, homes and models."""
 
 from collections.abc import Mapping, Sequence
 from statistics import fmean
@@ -15,7 +15,7 @@ from kb.benchmark.calibration import calibration
 
 
 def policies(found: Sequence[Variant]) -> Table:
-    """Every variant beside the first in its home, in each condition with a language model."""
+    """Compare every variant with the first of its home, for each condition with a model."""
     columns = {title: column for title, (column, _) in MEASURES.items()}
     lines: Lines = []
     for condition in paper.CONDITIONS:
@@ -41,7 +41,7 @@ def policies(found: Sequence[Variant]) -> Table:
 
 
 def searching(found: Sequence[Variant]) -> Table:
-    """How long the thing was looked for, and what that cost with the questions."""
+    """Duration of searches, and their cost with questions."""
     lines: Lines = []
     for condition in paper.CONDITIONS:
         mine = _by_variant(found, condition)
@@ -67,7 +67,7 @@ def searching(found: Sequence[Variant]) -> Table:
 
 
 def cost_differences(found: Sequence[Variant]) -> Table:
-    """By how much the cost of a search differs from that of the first variant in its home."""
+    """Differences in the cost of a search from the first variant of the same home."""
     lines: Lines = []
     for condition in paper.CONDITIONS:
         mine = _by_variant(found, condition)
@@ -85,7 +85,7 @@ def _cost_s(row: Row) -> float:
 
 
 def trust(found: Sequence[Variant]) -> Table:
-    """How far what was believed before the first look could be trusted."""
+    """Calibration of the belief before the first look."""
     lines: Lines = []
     for condition in paper.CONDITIONS:
         for variant in found:
@@ -108,7 +108,7 @@ def trust(found: Sequence[Variant]) -> Table:
 
 
 def _right(row: Row) -> float:
-    """Whether the likeliest place was right; of several as likely, any may have come first."""
+    """Expected correctness of the likeliest place; of equally likely ones, any may be first."""
     return (row.sure_of_it >= row.sure) / row.as_likely
 
 
@@ -126,12 +126,12 @@ def _by_variant(found: Sequence[Variant], condition: Condition) -> dict[str, lis
 
 
 def _against_first(rows: Mapping[str, Sequence[Row]], column: Column) -> dict[str, str]:
-    """The stars of each variant's difference from the first in its home, by command."""
+    """The stars for each variant's difference from the first of its home, paired by command."""
     return {test.b: f" {stars(test.p)}".rstrip() for test in _beside_first(rows, column)}
 
 
 def _beside_first(rows: Mapping[str, Sequence[Row]], column: Column) -> list[Comparison[str]]:
-    """The first variant of each home beside all others of that home."""
+    """Comparisons of the first variant of each home with all others of that home."""
     columns = {variant: by_command(mine, column) for variant, mine in rows.items()}
     first: dict[str, str] = {}
     for variant, mine in rows.items():

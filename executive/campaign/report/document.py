@@ -1,4 +1,4 @@
-"""A report as its parts, and two ways to write it: Markdown with pictures beside it, or HTML."""
+"""The parts of a report, and two formats for it: Markdown with picture files, and HTML."""
 
 from base64 import b64encode
 from collections.abc import Iterable, Sequence
@@ -13,21 +13,21 @@ from executive.text import printable
 
 @dataclass(frozen=True, slots=True)
 class Link:
-    """A file or folder, relative to where the report is."""
+    """A link to a file or folder, relative to the report."""
 
     text: str
     target: str
 
 
 SAFE = "/ "
-"""What a link keeps as it is: a colon would make a scheme of what is before it."""
+"""Characters that are not escaped in a link; a colon is, as it would mark a URL scheme."""
 
 Cell = str | Sequence[Link]
 
 
 @dataclass(frozen=True, slots=True)
 class Heading:
-    """The title (level 1) or the head of a section."""
+    """The title (level 1) or the heading of a section."""
 
     text: str
     level: int = 2
@@ -35,14 +35,14 @@ class Heading:
 
 @dataclass(frozen=True, slots=True)
 class Text:
-    """A paragraph, plain."""
+    """A paragraph of plain text."""
 
     text: str
 
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """Heads, and rows of as many cells."""
+    """A table: column headings, and rows with as many cells."""
 
     heads: Sequence[str]
     rows: Sequence[Sequence[Cell]]
@@ -50,7 +50,7 @@ class Table:
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """A drawing (SVG), the name of its file, and what it shows."""
+    """A drawing (SVG), with file name and caption."""
 
     name: str
     caption: str
@@ -81,7 +81,7 @@ def to_markdown(parts: Iterable[Part], pictures: str) -> str:
 
 
 def to_html(parts: Sequence[Part]) -> str:
-    """The report as one file of HTML that needs no other."""
+    """The report as one self-contained HTML file."""
     title = next((part.text for part in parts if isinstance(part, Heading)), "")
     body = "\n".join(_html(part) for part in parts)
     return (
@@ -125,7 +125,7 @@ def _markdown_cell(cell: Cell) -> str:
 
 
 def _escaped(text: str) -> str:
-    """As plain words: no emphasis, no tags, no links, nothing that a terminal would obey."""
+    """Escape Markdown, HTML tags, links and control characters."""
     plain = printable(text.replace("\n", " "))
     return plain.replace("*", "\\*").replace("<", "&lt;").replace("](", "]\\(")
 

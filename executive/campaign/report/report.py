@@ -1,4 +1,4 @@
-"""The report of a campaign: the paper's tables with ours beside its figures, tests and plots."""
+"""The report of a campaign: the paper's tables with our figures, tests and plots."""
 
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
@@ -59,7 +59,7 @@ COMPARED = (
 )
 
 HEADINGS = {"inquiries": "Inquiries to the person", "visits": "Pieces of furniture visited"}
-"""Of the measures."""
+"""Headings of the measures."""
 
 Plots = Mapping[str, Sequence[Part]]
 """The figures, by the section that they belong to."""
@@ -139,7 +139,7 @@ def _searched(found: Sequence[Variant], ran: Sequence[Row]) -> list[Part]:
 
 
 def not_counted(rows: Sequence[Row]) -> str:
-    """What is said of missions whose language model was of no help."""
+    """A sentence about missions whose language model did not work."""
     why, number = Counter(row.model_failure for row in rows).most_common(1)[0]
     whose = "1 mission" if len(rows) == 1 else f"{len(rows)} missions"
     often = f", {number} times" if number < len(rows) else ""

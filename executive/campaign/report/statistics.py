@@ -21,14 +21,14 @@ Name = TypeVar("Name", bound=Hashable)
 
 @dataclass(frozen=True, slots=True)
 class Summary:
-    """What a column of numbers comes to; the interval is that of the mean (95 %)."""
+    """Mean, standard deviation and 95 % interval of the mean of a column of numbers."""
 
     n: int
     groups: int
-    """What the interval rests on; of a single one there is none, and `low` is `high`."""
+    """Number of groups for the interval; with a single one, `low` and `high` are equal."""
     mean: float
     sd: float
-    """Of single missions (n - 1 in the denominator); 0 for a single one."""
+    """Standard deviation of single missions (n - 1 in the denominator); 0 for a single one."""
     low: float
     high: float
 
@@ -59,11 +59,11 @@ class Comparison(Generic[Name]):
     pairs: int
     difference: float
     p: float
-    """After Holm's correction over the comparisons made together."""
+    """p value after Holm's correction over all comparisons made together."""
 
 
 def pairwise(columns: Mapping[Name, Mapping[Hashable, float]]) -> list[Comparison[Name]]:
-    """Each two conditions compared, as `compare` does it."""
+    """Compare all pairs of conditions, with `compare`."""
     return compare(columns, combinations(columns, 2))
 
 
@@ -87,13 +87,13 @@ def compare(
 
 
 EXACT_UP_TO = 12
-"""So many pairs that differ are tested by all assignments of signs; more by the normal curve."""
+"""Up to this many differing pairs, p is exact; above, by the normal approximation."""
 
 
 def signed_rank(
     differences: Sequence[float] | NDArray[np.float64],
 ) -> float:
-    """Two-sided p of Wilcoxon's signed-rank test; pairs that do not differ say nothing."""
+    """Two-sided p of Wilcoxon's signed-rank test; pairs without a difference are left out."""
     d = np.asarray(differences, float)
     d = d[np.abs(d) > 1e-12]
     if d.size < 2:
@@ -107,7 +107,7 @@ def signed_rank(
 
 
 def _ranks_of_positive(d: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
-    """Wilcoxon's statistic, of all assignments of signs at once."""
+    """Wilcoxon's statistic along an axis."""
     ranks: NDArray[np.float64] = stats.rankdata(np.abs(d), axis=axis)
     return np.asarray(np.where(d > 0, ranks, 0.0).sum(axis=axis), float)
 
@@ -122,7 +122,7 @@ def holm(ps: Sequence[float]) -> list[float]:
 
 
 def stars(p: float) -> str:
-    """As in the paper's figures: ** below 0.01, * below 0.05."""
+    """Stars as in the paper's figures: ** below 0.01, * below 0.05."""
     return "**" if p < 0.01 else "*" if p < 0.05 else ""
 
 

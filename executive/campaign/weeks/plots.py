@@ -1,4 +1,4 @@
-"""The plot of weeks: a panel a measure, a line a policy, told apart in grey, too."""
+"""The plot of weeks: a panel per measure, a line per policy, distinguishable also in grey."""
 
 from collections.abc import Mapping, Sequence
 from itertools import cycle
@@ -25,12 +25,12 @@ LINES = (
     (ORANGE, "v", "-"),
     (SKY, "x", "--"),
 )
-"""Colour, marker and line."""
+"""Colour, marker and line style of each policy."""
 CAPTION = "By week, the mean of all households, with 95 % intervals over the days."
 
 
 def figure(shown: Mapping[str, Mapping[str, Sequence[Summary | None]]]) -> Figure:
-    """All measures side by side: of each its title, and of each policy the weeks."""
+    """Plot all measures side by side; `shown` maps titles to policies to weekly means."""
 
     def draw(drawing: Drawing) -> None:
         panels = drawing.subplots(2, (len(shown) + 1) // 2, sharex=True, squeeze=False)

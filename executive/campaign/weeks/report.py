@@ -22,9 +22,9 @@ MEASURES: Mapping[str, tuple[str, Callable[[Lived], float]]] = {
     "misguided": ("wrong guesses by habit, % of commands", lambda one: 100.0 * one.misguided),
     "cost": ("cost of the search a command [s]", lambda one: one.cost_s),
 }
-"""What is told by week: its name, and its value of a command."""
+"""The measures by week: name, and value of a command."""
 SHOWN = ("questions", "visits", "stale", "cost")
-"""What is drawn."""
+"""The measures that are plotted."""
 READING = (
     "A household gives ten commands a day, find or bring, at hours and of things that its seed "
     "draws; its things wander by habits. All policies live through the same days. What the robot "
@@ -58,7 +58,7 @@ def report(lived: Sequence[Lived], about: Mapping[str, str]) -> list[Part]:
 
 
 def by_variant(lived: Sequence[Lived]) -> Iterator[tuple[str, Iterator[Lived]]]:
-    """The rows of each policy, home and model by a name that tells them apart."""
+    """The rows of each policy, home and model, with a distinguishing name."""
     homes, models = ({getattr(one, key) for one in lived} for key in ("home", "llm"))
     order = dict.fromkeys((one.policy, one.home, one.llm) for one in lived)
     for policy, home, llm in order:
@@ -93,7 +93,7 @@ def by_week(found: Mapping[str, Sequence[Lived]], measure: str) -> Table:
 
 
 def second_half(found: Mapping[str, Sequence[Lived]]) -> Table:
-    """What it comes to when the robot knows the home, with intervals."""
+    """The means of the second half, when the robot knows the home, with intervals."""
     heads = ["policy", *(title for title, _ in MEASURES.values()), "completed", "n"]
     lines = []
     for name, rows in found.items():

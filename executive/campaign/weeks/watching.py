@@ -1,4 +1,4 @@
-"""A campaign of weeks: households that are watched for so long, and the folder that keeps it."""
+"""A campaign of weeks: simulated households, and the folder that keeps their results."""
 
 import argparse
 from pathlib import Path
@@ -16,7 +16,7 @@ from sim.home.habits import load_habits
 from sim.home.home_file import load_home
 
 POLICIES = ("plan", "paper", "nearest", "memory")
-"""Which are compared if none is named."""
+"""The policies that are compared by default."""
 HABITS = "household"
 SEEDS = 3
 MOST_WEEKS = 520
@@ -24,10 +24,10 @@ ASKED = f"{COMMANDS_A_DAY} a day, drawn by the seed"
 
 
 class Weeks:
-    """Households by policy, home, model and seed, and the folder that keeps what came of them."""
+    """Households by policy, home, model and seed, and the folder that keeps their results."""
 
     def __init__(self, options: argparse.Namespace) -> None:
-        """Read the options, and make the folder and have it to oneself.
+        """Read the options, make the folder and lock it.
 
         Raises:
             InputError: if an option or a file is wrong, or the folder holds another campaign, or
@@ -54,7 +54,7 @@ class Weeks:
         self._folder = Folder(self._out, settings[0], (ASKED,), self._diary)
 
     def run(self) -> int:
-        """Live what has not been lived yet; the report is written however it ends.
+        """Run the remaining commands; the report is written however the run ends.
 
         Raises:
             ExecutiveError: if missions cannot be run, or journal or report cannot be written.
@@ -68,7 +68,7 @@ class Weeks:
         return DONE if came_to_the_end else STOPPED
 
     def _lines(self) -> list[Line]:
-        """What was lived of this campaign; the folder may hold more."""
+        """The journal's lines of this campaign; the folder may have others, too."""
         return [
             line
             for line in self._diary.entries()
@@ -92,7 +92,7 @@ class Weeks:
 
 
 def refuse_what_does_not_fit(options: argparse.Namespace) -> None:
-    """Some options are of a grid of missions alone.
+    """Refuse options that only apply to a grid of missions.
 
     Raises:
         InputError: names the option.
