@@ -94,7 +94,7 @@ class Deed(StrEnum):
     """What an experimenter can do in place of the person or the robot."""
 
     ANSWER = "answer"
-    """Answer a question in the person's stead."""
+    """Answer a question in place of the person."""
     HOLD = "hold"
     """Hold all sentences of the robot from now on (`on`), or do so no longer (`off`)."""
     WORDS = "words"
@@ -112,7 +112,7 @@ ON, OFF = "on", "off"
 
 @dataclass(frozen=True, slots=True)
 class Intervened:
-    """An experimenter stepped in.
+    """An experimenter intervened.
 
     Attributes:
         by: the experimenter.
@@ -178,8 +178,8 @@ class _Computed:
 class Inbox:
     """Events on their way to the ticking thread, open requests, and computations for it.
 
-    `post` may be called from any thread and from a signal handler (SimpleQueue is re-entrant), and
-    `hear` and `end` from any thread; the rest belongs to the thread that ticks.
+    `post` may be called from any thread and from a signal handler (SimpleQueue is re-entrant);
+    `hear` and `end` from any thread; everything else only from the ticking thread.
     """
 
     def __init__(self) -> None:
@@ -246,7 +246,7 @@ class Inbox:
 
     @property
     def awaits_anything(self) -> bool:
-        """Whether any request is under way."""
+        """Whether any request is open."""
         return bool(self._open)
 
     def is_open(self, request: int) -> bool:
@@ -260,7 +260,7 @@ class Inbox:
         sequel: Callable[[Computation[T]], None],
         request: int | None = None,
     ) -> Computation[T]:
-        """Have something computed, while mission time stands still.
+        """Queue a computation, during which mission time stands still.
 
         Args:
             worker: does it, as soon as the ticking thread sleeps.
@@ -324,7 +324,7 @@ class Inbox:
     def take_all(self) -> tuple[Event, ...]:
         """Take all events, the oldest first.
 
-        Ends of dropped requests are left out, and so is a second end of the same request.
+        Ends of dropped requests, and second ends of the same request, are left out.
         """
         self._collect()
         events = tuple(event for event in self._taken if self._close(event))

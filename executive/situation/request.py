@@ -23,7 +23,7 @@ def _less_plural(fields: list[tuple[str, Any]]) -> dict[str, Any]:
 
 @dataclass
 class Request:
-    """What the person wants, in the order in which it becomes known."""
+    """What the person wants; fields are in the order in which they become known."""
 
     words: str = ""
     command: Command | None = field(default=None, metadata=logged_as(plain=command_as_logged))
@@ -38,11 +38,11 @@ class Request:
     object: str | None = None
     """Name of the thing that is meant; None while that is not known."""
     from_places: tuple[str, ...] = ()
-    """The furniture where the thing is by the words, the likeliest first."""
+    """The furniture where the thing is, as the words say, the likeliest first."""
     goals: tuple[str, ...] = ()
     """The furniture where the thing, or the robot, may go, the best first."""
     goal: str = ""
-    """That of them which the robot has chosen."""
+    """The one of `goals` that the robot has chosen."""
 
     @property
     def asked_for(self) -> Command:
@@ -56,5 +56,5 @@ class Request:
         return self.object or ""
 
     def asks_to(self, kind: CommandKind) -> bool:
-        """Whether this kind of deed was asked for."""
+        """Whether the current command is of this kind."""
         return self.command is not None and self.command.kind == kind

@@ -18,9 +18,9 @@ class Consultation:
     """One exchange with the language model about where a thing may be."""
 
     reply: str = ""
-    """What it last wrote."""
+    """The model's last reply."""
     names: tuple[str, ...] = ()
-    """The places that the reply names, not yet verified."""
+    """The names of places in the reply, not yet verified."""
     furniture: list[str] = field(default_factory=list)
     """Places that passed the verification."""
     rooms: list[str] = field(default_factory=list)
@@ -50,21 +50,21 @@ class Search:
     consultation: Consultation = field(default_factory=Consultation)
     candidates: tuple[Candidate, ...] = ()
     candidate: Candidate | None = None
-    """Where the robot is going or looking now."""
+    """The place to which the robot drives, or at which it looks, now."""
     sent_to: str = ""
-    """Where an experimenter wants the robot to look next; empty if nobody does."""
+    """The place where an experimenter wants the robot to look next; empty if there is none."""
     view: int = 0
     """The view of that place at which the robot looks."""
     looks: Looks = field(default_factory=Looks, metadata=PART)
-    """Where the thing was looked for, and what came of it."""
+    """The results of the looks so far."""
     whereabouts: Whereabouts = field(default_factory=Whereabouts, metadata=PART)
-    """Where it may be, if it is searched by a plan."""
+    """Belief and plan, if the search follows a plan."""
     doubtful: Detection | None = field(default=None, metadata=logged_as(plain=_guess))
     """What may be the thing, or a part of it, in the last picture; None if there is no doubt."""
     detection: Detection | None = field(default=None, metadata=logged_as("sighting", _position))
-    """The thing, as last seen."""
+    """The last detection of the thing."""
     found: Candidate | None = None
-    """Where the thing was seen."""
+    """The place where the thing was seen."""
     gone: bool = False
     """Whether the thing was seen, and was not there any more at the next look."""
 
@@ -94,7 +94,7 @@ class Search:
         return tuple(c for c in candidates if c.place not in self.looks.visited)
 
     def so_far(self, thing: str | None, say: Wording) -> str:
-        """Where the thing was looked for in vain, as a clause; empty if nowhere."""
+        """Where the robot looked for the thing in vain, as a clause; empty if nowhere."""
         return "; ".join(self.looks.clauses(thing or "thing", say))
 
 

@@ -147,7 +147,7 @@ class Situation:
         return self.hand.in_hand is not None and self.hand.in_hand == self.request.object
 
     def saved(self) -> Self:
-        """A copy, for `restore`."""
+        """A deep copy, for `restore`."""
         twin: Self = _copied(self)
         return twin
 
@@ -222,7 +222,7 @@ class Situation:
 
     @property
     def _is_at_hand(self) -> bool:
-        """Whether a task was begun that has not ended."""
+        """Whether a task has begun and not ended."""
         return self.request.command is not None and not self.ending.decided
 
     def _of_task(self, command: Command) -> TaskOutcome:
