@@ -254,9 +254,10 @@ def test_a_broken_file_is_refused(tmp_path, content, fault):
         Ontology(files=[path])
 
 
-def test_a_compressed_file_is_refused_with_what_to_do(tmp_path):
+@pytest.mark.parametrize("content", [gzip.compress(b"<rdf:RDF/>"), b"PK\x03\x04"])
+def test_a_compressed_file_is_refused_with_what_to_do(tmp_path, content):
     path = tmp_path / "more.owl"
-    path.write_bytes(gzip.compress(b"<rdf:RDF/>"))
+    path.write_bytes(content)
     with pytest.raises(InputError, match="more.owl: is compressed; unpack it, and name the file"):
         Ontology(files=[path])
 
