@@ -47,7 +47,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _chosen(named: Sequence[Path]) -> Path:
-    """The run to ask about; if there were several candidates, print which one was chosen."""
+    """The run to ask about; unless the names mean a single run, print which one was chosen."""
     from logs.recording.choice import newest
 
     chosen = newest(named)

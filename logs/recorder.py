@@ -29,9 +29,9 @@ Shorter is safer: with the time that writing takes, a kill loses no more than a 
 busy machine.
 """
 LIVE_FLUSH_S = 0.1
-"""The same for sinks that someone watches."""
+"""The same for sinks that someone watches; the others are still flushed every `FLUSH_S`."""
 CLOSE_S = 30.0
-"""How long `close` waits until the queue is written."""
+"""How long `close` waits for the queue to be written and the logs to be finished."""
 
 
 class Stamp(NamedTuple):
@@ -42,7 +42,7 @@ class Stamp(NamedTuple):
 
 
 class Sink(Protocol):
-    """One log. All methods are called in the writing thread, and may raise."""
+    """One log. All methods but the constructor are called in the writing thread; they may raise."""
 
     def write(self, stamp: Stamp, record: Record) -> None:
         """Write a record. After an OSError the sink is closed; after others, the record is lost."""
@@ -70,15 +70,25 @@ class FanOut:
     """
 
     def __init__(self, now: Callable[[], float], *, live: bool = False) -> None:
-        """`now` returns the mission time (s) for the stamps; `live` if someone watches the logs."""
+        """Take the mission time (s) for the stamps from `now`.
+
+        If `live`, someone watches, and all sinks are flushed every `LIVE_FLUSH_S`.
+        """
         self._now = now
         self._live = live
         self._writer: _Writer | None = None
         self.is_whole = True
-        """Whether no log of the last mission lacks anything, as far as they are written."""
+        """Whether the logs of the last mission are complete; known after `close`.
+
+        False if records were dropped, or a sink failed. A record that does not fit a sink does not
+        count.
+        """
 
     def open(self, sinks: Sequence[Sink], started: datetime) -> None:
-        """Begin the logs of a mission that started at this wall time; close those still open."""
+        """Begin the logs of a mission that started at this wall time; close those still open.
+
+        If no thread can be started, the mission has no logs.
+        """
         self.close()
         self.is_whole = True
         try:
@@ -89,7 +99,7 @@ class FanOut:
         self.record(Note("info", f"mission time 0 is {started.isoformat()}"))
 
     def record(self, record: Record) -> None:
-        """Pass a record on; between `close` and `open` it is ignored. Never raises."""
+        """Pass a record on; outside a mission, from `open` to `close`, ignore it. Never raises."""
         if self._writer is not None:
             self._writer.put(Stamp(self._now(), time.time_ns()), record)
 
@@ -117,14 +127,15 @@ class _Writer:
         """Ends the rest early."""
         self._lost = 0
         self.is_whole = True
-        """Whether nothing has been lost so far."""
+        """Whether no record was dropped, and no sink has failed, so far."""
         self._thread = threading.Thread(target=self._run, name="recorder", daemon=True)
         self._thread.start()
 
     def put(self, stamp: Stamp, record: Record) -> None:
         """Queue a record; if the sinks cannot keep up, wait once, then drop records.
 
-        The wait ends at once if the writing thread has ended, because the logs are being closed.
+        It does not wait for a thread that has ended: what another thread passes on while the logs
+        are being closed is dropped.
         """
         if not self._has_room(0.0 if self._lost else PATIENCE_S):
             self._lost += 1
@@ -168,7 +179,7 @@ class _Writer:
             self._hurry.clear()
 
     def _batch(self) -> list[tuple[Stamp, Record | None]]:
-        """All queued records; none if none comes before the sinks must be flushed."""
+        """Wait for records; return all in the queue, or none if the sinks must be flushed first."""
         left = max(0.0, self._flushed + self._flush_s - time.monotonic())
         try:
             first = self._queue.get(timeout=left if self._unflushed else None)

@@ -17,7 +17,7 @@ class Unwritten:
         self._told: set[str] = set()
 
     def note(self, kind: str, error: Exception) -> Note | None:
-        """The note to write instead of this record; None if this kind was reported before."""
+        """Warn, and return the note to write instead; None if this kind was reported before."""
         if kind in self._told:
             return None
         self._told.add(kind)

@@ -33,13 +33,14 @@ OPEN_SIDE = 640
 GREY = 114
 """The fill colour of letterboxing with which these networks were trained."""
 _FEWEST_PIXELS = 2
+"""A box with a shorter side is dropped."""
 _MOST_BOXES = 2000
 """The largest number of boxes kept, those with the highest confidence."""
 _MOST_CLASSES = 10_000
 _LONGEST_LIST = 1_000_000
 _LONGEST_WARNING = 2000
 _UNIT = 1.5
-"""If no coordinate is above this, boxes are in shares of the picture, not pixels."""
+"""If no coordinate is above this, boxes are in shares of the network's input, not pixels."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -49,7 +50,7 @@ class Found:
     Attributes:
         boxes: (n, 4): left, top, right, bottom.
         scores: (n,), in [0, 1].
-        classes: (n,), indices.
+        classes: (n,), indices in the class list.
     """
 
     boxes: Floats32
@@ -69,7 +70,7 @@ class OnnxDetector:
     ) -> None:
         """Load the network and its class list.
 
-        The class list is in FILE.names or FILE.txt beside FILE.onnx, a name a line, or in the
+        The class list is in FILE.names or FILE.txt beside FILE.onnx, one name per line, or in the
         file's metadata as `names`.
 
         Args:
@@ -78,7 +79,7 @@ class OnnxDetector:
             threads: number of OpenCV's threads in this process; None: OpenCV's default.
 
         Raises:
-            InputError: if the file or its class list is wrong.
+            InputError: if the file or its class list is wrong, or OpenCV cannot run the network.
         """
         if threads is not None:
             cv2.setNumThreads(threads)
@@ -97,7 +98,13 @@ class OnnxDetector:
         self._learn_layout(about.metadata)
 
     def detect(self, frame: Frame) -> tuple[Detection, ...]:
-        """All known objects in the picture, highest confidence first, with masks from depth."""
+        """All known objects in the picture, highest confidence first, with masks from depth.
+
+        An object is known if the ontology has exactly one for the name of its class.
+
+        Raises:
+            InputError: as `find`.
+        """
         found = self.find(frame.color)
         return tuple(
             Detection(label, float(score), box, segment(frame, box))
@@ -106,7 +113,12 @@ class OnnxDetector:
         )
 
     def find(self, color: NDArray[np.uint8], least: float = LEAST_CONFIDENCE) -> Found:
-        """All detections in a picture (h, w, 3; RGB) of at least this confidence, without masks."""
+        """All detections in a picture (h, w, 3; RGB) of at least this confidence, without masks.
+
+        Raises:
+            InputError: if OpenCV cannot run the network on it, or the output has changed its
+                layout.
+        """
         picture, scale, (left, top) = letterbox(color, self._height, self._width)
         rows = self._layout.rows(self._run(picture), str(self._path))
         boxes = surest(read(rows, self._layout, len(self._names)), least)
@@ -186,7 +198,11 @@ def class_list(path: Path, metadata: Mapping[str, str]) -> tuple[str, ...]:
 def _labels(
     path: Path, names: Sequence[str], objects_named: Callable[[str], Sequence[str]]
 ) -> tuple[str | None, ...]:
-    """The ontology's object for each class; None if there is none, or more than one."""
+    """The ontology's object for each class; None if there is none, or more than one.
+
+    Raises:
+        InputError: if the ontology knows none of the classes, or two that it knows have one name.
+    """
     known = [objects_named(name) for name in names]
     labels = tuple(objects[0] if len(objects) == 1 else None for objects in known)
     unknown = [name for name, label in zip(names, labels, strict=True) if label is None]
@@ -227,7 +243,7 @@ def surest(boxes: Boxes, least: float) -> Boxes:
 
 
 def suppress(boxes: Boxes, least: float) -> Boxes:
-    """Non-maximum suppression, class by class."""
+    """Non-maximum suppression, class by class: the boxes that are left, highest score first."""
     sides = boxes.corners[:, 2:] - boxes.corners[:, :2]
     kept = cv2.dnn.NMSBoxesBatched(
         np.concatenate((boxes.corners[:, :2], sides), axis=1).tolist(),
@@ -241,7 +257,7 @@ def suppress(boxes: Boxes, least: float) -> Boxes:
 
 
 def _whole_pixels(edges: Floats32, frame: Frame) -> Box | None:
-    """The box in whole pixels, clipped to the picture; None if nothing is left of it."""
+    """The box in whole pixels, clipped to the picture; None if it is too small then."""
     height, width = frame.color.shape[:2]
     left, top = np.floor(np.clip(edges[:2], 0, (width, height))).astype(int).tolist()
     right, bottom = np.ceil(np.clip(edges[2:], 0, (width, height))).astype(int).tolist()

@@ -17,7 +17,7 @@ from executive.errors import InputError
 from executive.files import read_bytes
 
 MOST_BYTES = 512 * 2**20
-"""The largest file: the largest networks of this kind have half of that."""
+"""The largest file (bytes): the largest networks of this kind have half of that."""
 LONGEST_SIDE = 4096
 """The longest side of a network's input (pixels)."""
 MOST_WEIGHTS = 2**28
@@ -72,8 +72,8 @@ class OnnxFile:
     """The header of an ONNX file.
 
     Attributes:
-        height: of its input (pixels); 0 if any.
-        width: of its input (pixels); 0 if any.
+        height: of its input (pixels); 0 if it takes any height.
+        width: of its input (pixels); 0 if it takes any width.
         takes_bytes: whether its input has colours from 0 to 255, not from 0 to 1.
         metadata: its metadata, such as `names` in exports of Ultralytics.
         content: the whole file.
@@ -90,8 +90,8 @@ def read_onnx(path: Path) -> OnnxFile:
     """Read and validate the header of an ONNX file.
 
     Raises:
-        InputError: if it cannot be read, is not an ONNX file, does not take a picture, is too
-            large, or refers to another file.
+        InputError: if it cannot be read, is not an ONNX file, does not take one picture of three
+            colours, is too large, or refers to another file.
     """
     where = str(path)
     content = read_bytes(

@@ -18,7 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 MOST_MEMORY = 8 * 2**30
+"""Limit for the memory of the other process (bytes)."""
 LONGEST_S = 60.0
+"""Time limit for the other process (s)."""
 MOST_NUMBERS = 50_000_000
 """The largest number of elements in the outputs for one picture."""
 _LACKS = re.compile(r"""Can't create layer .* of type "([^"]+)\"""")

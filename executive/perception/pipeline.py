@@ -28,8 +28,9 @@ _EDGE_PIXELS = 3
 class CameraPerception:
     """Implements `Perception`: takes a picture, detects objects, and locates them by depth.
 
-    The picture is taken within `see`, unless the camera is `far`. Detection, and waiting for pixels
-    that are still being rendered, is a computation, during which mission time stands still.
+    The picture is taken within `see`; with a `far` camera, in a computation. Detection, and waiting
+    for pixels that are still being rendered, are computations, too. Mission time stands still
+    during a computation.
     """
 
     def __init__(

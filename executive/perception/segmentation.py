@@ -1,4 +1,4 @@
-"""Segments the object in a detector's box by depth.
+"""Segments the object in a detector's box by depth, since such a box has no mask.
 
 In `map`, where z is up, the support of the object is level and below it, and what is behind or
 beside it is separated from it. Pure functions of arrays.
@@ -23,6 +23,7 @@ LEAST_AROUND = 8
 LEVEL = 0.97
 """A surface is level if the cosine between its normal and upward is above this."""
 BIN_M = 0.004
+"""Size of the bins into which heights are sorted."""
 ABOVE_M = 0.005
 """A pixel lower than this above the support belongs to the support."""
 STEP_M = 0.012
@@ -37,10 +38,11 @@ _LEAST_RISING = 0.08
 _MOST_SINKING = 0.1
 """Limits for the shares of the box above and below the support."""
 HIGHEST_M = 0.27
-"""The largest height of an object; what is farther below is background."""
+"""The largest height of an object; what is farther below its support is background."""
 _IN_BOX = 0.6
+"""A part with a larger share of its pixels in the box than this is mostly in the box."""
 _LINKS = 3
-"""The longest chain of such parts."""
+"""The longest chain of parts that belong to the object because each is near the one before."""
 _MOSTLY = 0.7
 """A part with this share in the block around the main one belongs to it."""
 _MIDDLE = 0.3
@@ -59,7 +61,7 @@ class Steps:
 def segment(frame: Frame, box: Box) -> Mask:
     """The mask (box.height, box.width) of the object in a box of the picture.
 
-    It is the whole box if there is no depth.
+    It is the whole box if no pixel in it has depth and is above the support.
     """
     rows, columns = _around(box, frame)
     points = back_project_grid(frame, rows, columns)
@@ -121,7 +123,7 @@ def support_height(points: Floats, inside: tuple[slice, slice]) -> float | None:
 
 
 def _is_level(points: Floats) -> Mask:
-    """Mask (h, w) of level pixels, by the points two pixels to the right and below."""
+    """Mask (h, w) of level pixels, by the upper left, upper right and lower left neighbours."""
     level = np.zeros(points.shape[:2], np.bool_)
     if min(level.shape) < 3:
         return level
@@ -164,10 +166,10 @@ def steps_between(points: Floats, candidates: Mask) -> Steps:
 
 
 def main_part(parts: NDArray[np.int32], inside: tuple[slice, slice]) -> int:
-    """The part that best fills the middle of the box; parts that extend outside score less.
+    """The label of the part that best fills the middle of the box, and extends least outside it.
 
     Raises:
-        ValueError: if no part is in the box.
+        ValueError: if there is no part at all.
     """
     in_box = parts[inside]
     height, width = in_box.shape

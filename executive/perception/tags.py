@@ -27,9 +27,10 @@ _BRIGHTER = 110
 
 
 def tag(name: str) -> NDArray[np.uint8]:
-    """The tag (SIDE, SIDE, 3) of a name; if the name is too long, `read` refuses the tag.
+    """The tag (SIDE, SIDE, 3) of a name of at most `LONGEST` bytes, in UTF-8.
 
-    Its colour comes from the first three letters of the name.
+    The colour of its rim comes from the first three letters of the name. `read` refuses the tag of
+    a longer name (up to 256 bytes).
     """
     said = name.encode()
     content = bytes([len(said) % 256]) + said[:LONGEST].ljust(LONGEST, b"\0")

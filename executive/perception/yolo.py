@@ -58,7 +58,7 @@ class Boxes:
     Attributes:
         corners: (n, 4): left, top, right, bottom.
         scores: (n,).
-        classes: (n,), indices.
+        classes: (n,), indices in the class list.
     """
 
     corners: Floats32
@@ -78,7 +78,8 @@ def layout_of(
         where: the file, for messages.
 
     Raises:
-        InputError: if none fits, or the network is for another task or gives no probabilities.
+        InputError: if none fits, or the network is for another task or for several pictures at
+            once.
     """
     if (task := metadata.get("task")) in _OTHER_TASKS:
         raise InputError(where, f"is a network for the task {task}", "export one that detects")

@@ -32,11 +32,11 @@ def recorded_body(run: Run, settings: Settings, home: Home) -> Body:
     """Read the body as `executive.app.recording` has written it.
 
     Raises:
-        InputError: if it cannot be read.
+        InputError: if it is malformed.
     """
     kept = run.attachments.get("body.json")
     if kept is None:
-        return _of_old(settings, home)
+        return _early_body(settings, home)
     try:
         return Body.model_validate_json(kept)
     except ValidationError as error:
@@ -44,8 +44,8 @@ def recorded_body(run: Run, settings: Settings, home: Home) -> Body:
         raise InputError(str(run.path), what) from error
 
 
-def _of_old(settings: Settings, home: Home) -> Body:
-    """The body for early recordings, which keep nothing about it: there were only these two."""
+def _early_body(settings: Settings, home: Home) -> Body:
+    """The body of early recordings: there were only those of the instant world and of PyBullet."""
     if settings.world != "physics":
         return Body(in_map=False, views={})
     views = {place: len(home.view_targets(place)) for place in places_viewed(home)[:-1]}

@@ -49,7 +49,7 @@ def recorded_parts(
     Its policy is looked up by name, unless `change` is given.
 
     Raises:
-        InputError: if the recording lacks something that a part needs.
+        InputError: if the recording lacks something that a part needs, or it is malformed.
     """
     settings = _settings(run)
     home = with_placement(_home(kept(run, run.attachments, "home.toml")), settings.place)
@@ -101,9 +101,8 @@ def _policy(run: Run) -> Change:
     name = run.metadata.get("policy", OURS)
     if name == OURS:
         return as_they_are
-    from executive.campaign.policies import (
-        POLICIES,  # it imports packages that most replays do not need
-    )
+    # imports packages that most replays do not need
+    from executive.campaign.policies import POLICIES
 
     if name not in POLICIES:
         what = f"was made with the policy {name!r}, unknown here"
@@ -112,7 +111,11 @@ def _policy(run: Run) -> Change:
 
 
 def _places(run: Run, name: str) -> dict[str, list[str]]:
-    """The places of objects in an attachment; empty without one, but `facts.json` must exist."""
+    """The places of objects, from an attachment; empty if there is none.
+
+    Raises:
+        InputError: if it is malformed, or is `facts.json`, and there is none.
+    """
     if name != "facts.json" and name not in run.attachments:
         return {}
     try:

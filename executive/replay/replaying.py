@@ -78,7 +78,7 @@ def replay(folder: Path, build: Build = mission_tree, change: Change | None = No
     run = Run(folder)
     inbox, situation = Inbox(), Situation.at_start(before=_before(run))
     clock = RecordedTime(tuple(run.turns()), inbox, _requests_before(run))
-    judge = Judge(clock, ends_early=run.outcome() is None, exact=_is_worded(run))
+    judge = Judge(clock, ends_early=run.outcome() is None, exact=_speaks_in_words(run))
     absent = Absent(inbox, situation)
     absent.rests = "policy" not in run.metadata
     parts = recorded_parts(run, inbox, absent, clock, judge, change)
@@ -96,9 +96,10 @@ class Judge:
     """The Recorder of a replay: compares every tick with the recorded one."""
 
     def __init__(self, clock: RecordedTime, *, ends_early: bool, exact: bool) -> None:
-        """Compare with the turn that the clock plays; if it `ends_early`, the last may be partial.
+        """Compare with the turn that the clock plays.
 
-        Unless `exact`, sentences are not compared.
+        If the recording `ends_early`, its last turn may be partial. Unless `exact`, messages and
+        measured values are not compared (see `tick_aspects`).
         """
         self._clock = clock
         self._exact = exact
@@ -147,13 +148,20 @@ class Judge:
         self.time_s = self._clock.now()
 
 
-def _is_worded(run: Run) -> bool:
-    """Whether the robot spoke in words; before, it said `sugar_box`, and decided alike."""
+def _speaks_in_words(run: Run) -> bool:
+    """Whether the recorded robot spoke in words.
+
+    In early recordings, it decided the same, but said `sugar_box`: its messages cannot be compared.
+    """
     return "speaks" in run.metadata
 
 
 def _before(run: Run) -> Before:
-    """How things stood when the recorded mission began."""
+    """The state at the beginning of the recorded mission.
+
+    Raises:
+        InputError: if it is malformed.
+    """
     try:
         return Before.from_metadata(run.metadata)
     except ValueError as error:
@@ -162,7 +170,7 @@ def _before(run: Run) -> Before:
 
 
 def _outermost(paths: Collection[str], others: Collection[str]) -> Iterator[str]:
-    """The paths that the others lack, less those inside of another one."""
+    """The paths that are not among `others`, without those inside another such path."""
     lacking = [path for path in paths if path not in others]
     return (path for path in lacking if path.rpartition("/")[0] not in lacking)
 
@@ -175,7 +183,10 @@ def _requests_before(run: Run) -> int:
 
 
 def _late_parting(run: Run, clock: RecordedTime, situation: Situation) -> Parting | None:
-    """A difference after the last tick: the recording goes on, or the outcome differs."""
+    """A difference after the last tick: the recording goes on, or the outcome differs.
+
+    None if there is none, or the recording ends early and has no outcome.
+    """
     while clock.next_turn() is not None:
         pass
     if clock.missed and (tick := clock.missed.tick):
@@ -187,11 +198,11 @@ def _late_parting(run: Run, clock: RecordedTime, situation: Situation) -> Partin
     if STILL_HELD not in recorded.reason:  # early recordings: a stop did not say what is held
         situation.ending.reason = situation.ending.reason.partition(STILL_HELD)[0]
     outcome = situation.outcome(mission_time_s=clock.now(), wall_time_s=0.0, run_dir=None)
-    if "thinks" not in run.metadata:  # early recordings: outcomes did not have it
+    if "thinks" not in run.metadata:  # early recordings: outcomes had no `model_failure`
         outcome = replace(outcome, model_failure=recorded.model_failure)
     if not recorded.tasks:  # early recordings: there was only one task
         outcome = replace(outcome, tasks=())
-    aspects = tuple(outcome_aspects(recorded, outcome, exact=_is_worded(run)))
+    aspects = tuple(outcome_aspects(recorded, outcome, exact=_speaks_in_words(run)))
     return Parting(None, recorded.mission_time_s, aspects) if aspects else None
 
 

@@ -17,7 +17,10 @@ class RecordedTime:
     """The Clock of a replay: each wait advances to the next events of the recording."""
 
     def __init__(self, turns: Iterable[Turn], inbox: Inbox, requests_before: int) -> None:
-        """Play these turns; the numbers of their requests follow `requests_before`."""
+        """Play these turns; the session had opened `requests_before` requests before them.
+
+        In the replay, requests are numbered from 1.
+        """
         self._turns = iter(turns)
         self._inbox = inbox
         self._requests_before = requests_before
@@ -25,7 +28,7 @@ class RecordedTime:
         self._stopped = False
         self._held_back: tuple[Event, ...] = ()
         self.turn: Turn | None = None
-        """The current turn of the recording; None at its end."""
+        """The current turn of the recording; None before its beginning, and at its end."""
         self.missed: Turn | None = None
         """The first turn in which the recording has a tick and the replay has not."""
         self._ticked = False
@@ -38,7 +41,7 @@ class RecordedTime:
         """Do nothing: recorded times begin at 0."""
 
     def wait(self, deadline: float | None) -> None:
-        """Post the next recorded events; at the end, post a stop, then let the deadline pass."""
+        """Post the next recorded events; at the end, post a stop, then advance to the deadline."""
         if self._inbox.has_events:
             return
         if self._held_back:
@@ -52,14 +55,14 @@ class RecordedTime:
             self.stop("the end of the recording")
 
     def next_turn(self) -> Turn | None:
-        """Advance to the next turn of the recording."""
+        """Advance to the next turn of the recording; None at its end."""
         if self.missed is None and self.turn and self.turn.tick and not self._ticked:
             self.missed = self.turn
         self.turn, self._ticked = next(self._turns, None), False
         return self.turn
 
     def tick(self) -> Tick | None:
-        """The recorded tick that corresponds to the current one."""
+        """The recorded tick for the one that the replay makes now; None if there is none."""
         self._ticked = True
         return self.turn.tick if self.turn else None
 
@@ -104,7 +107,7 @@ class Absent:
         self.ways: Mapping[tuple[str, str], float] = {}
         """Durations of drives from a place to another one (s)."""
         self.rests = False
-        """Whether `Halt` ends at once: early recordings did not wait for its end."""
+        """Whether `Halt` succeeds at once, whatever was recorded: early missions did not check."""
 
     @property
     def holding(self) -> bool | None:

@@ -22,7 +22,7 @@ def split(before: At[Tick] | None, at: At[Tick]) -> Iterator[Decision]:
 def where_to_look(
     before: At[Tick] | None, at: At[Tick], told: Container[str]
 ) -> Iterator[Decision]:
-    """The places that a source named, unless they were told before, or a plan tells them."""
+    """The places that a source named, unless they are among `told`, or a plan tells them."""
     was, now = _before_and_now(before, at)
     places = now.get("candidates") or ()
     if not places or places == was.get("candidates") or now.get("plan"):
@@ -33,7 +33,7 @@ def where_to_look(
 
 
 def visits(before: At[Tick] | None, at: At[Tick], searches: Container[str]) -> Iterator[Decision]:
-    """The places where the robot looked for the thing; told when it is done with the place.
+    """The places where the robot looked or could not get; told when it is done with the place.
 
     `searches` are the paths of the search behaviours.
     """
@@ -119,7 +119,7 @@ def parts_ended(before: At[Tick] | None, at: At[Tick]) -> Iterator[Decision]:
     """How each part of a task ended that has ended since."""
     was, now = _before_and_now(before, at)
     for part in _parts(now)[len(_parts(was)) :]:
-        yield Decision(at.time_s, f"part: {_named(part)}", _came_of(part), "", at.value.tip)
+        yield Decision(at.time_s, f"part: {_named(part)}", _ending(part), "", at.value.tip)
 
 
 def tasks_ended(before: At[Tick] | None, at: At[Tick]) -> Iterator[Decision]:
@@ -130,7 +130,7 @@ def tasks_ended(before: At[Tick] | None, at: At[Tick]) -> Iterator[Decision]:
     known = len(before.value.situation.get("ended") or ()) if before else 0
     for number, task in enumerate(ended[known:], start=known + 1):
         what = f"task {number}: {_named(task)}"
-        yield Decision(at.time_s, what, _came_of(task), "", at.value.tip)
+        yield Decision(at.time_s, what, _ending(task), "", at.value.tip)
 
 
 def _named(task: Mapping[str, Any]) -> str:
@@ -142,7 +142,7 @@ def _named(task: Mapping[str, Any]) -> str:
     return " ".join(filter(None, (kind, several, task["target"], source, goal)))
 
 
-def _came_of(task: Mapping[str, Any]) -> str:
+def _ending(task: Mapping[str, Any]) -> str:
     return f"{task['status'].replace('_', ' ')}: {task['reason']}"
 
 

@@ -17,9 +17,9 @@ class Comparison:
         one: name of the first.
         other: name of the second.
         setup: settings and facts of the run that differ.
-        parting: the first tick that differs; None if all decisions are the same.
-        decisions: for each mission, its first decision that the other does not share; None if
-            there is none.
+        parting: the first tick, or the outcome, that differs; None if all decisions are the same.
+        decisions: for each mission, its first decision after those that both share; None if there
+            is none.
         ends: how each mission ended.
     """
 

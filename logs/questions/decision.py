@@ -1,4 +1,4 @@
-"""One decision between the words and the deed: what was decided, by whom, and what was rejected."""
+"""One decision from the words to the deed: what was decided, by whom, and what was not taken."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ NOT_NEEDED = "not needed"
 
 @dataclass(frozen=True, slots=True)
 class Alternative:
-    """An alternative, and why it was rejected."""
+    """An alternative, and why it was not taken."""
 
     what: str
     why_not: str
@@ -25,13 +25,14 @@ class Decision:
     """One decision.
 
     Attributes:
-        time_s: mission time (s).
+        time_s: mission time of the decision (s).
         question: what was to be decided, in the words of the tree.
         answer: the result.
-        source: as declared by the behaviour: `person`, `ontology`, `llm`, `user`; or `eyes`,
-            `world` or `experimenter`; empty if the tree itself decides.
-        by: the behaviour that decided.
-        alternatives: what was rejected.
+        source: as declared by the behaviour, such as `person`, `ontology`, `llm`, `user`; or
+            `eyes`, `world` or `experimenter`; empty if the tree itself decides.
+        by: path of the behaviour that decided; of an intervention, who stepped in; of the outcome,
+            its status; else empty.
+        alternatives: what was not taken.
     """
 
     time_s: float
@@ -43,7 +44,7 @@ class Decision:
 
 
 def why_text(decisions: Iterable[Decision]) -> str:
-    """A paragraph for each decision: the result, its source, and the rejected alternatives."""
+    """A paragraph for each decision: the result, its source, and the other alternatives."""
     return "\n".join(map(_text, decisions)) or "nothing was decided: the recording has no ticks"
 
 

@@ -37,7 +37,8 @@ class Aspect:
 class Parting:
     """The first tick that differs (None: only the outcomes differ), and its differences.
 
-    `time_s` is the mission time of the first mission (s).
+    `time_s` is the mission time (s): that of the first mission, unless only the second has such a
+    tick.
     """
 
     tick: int | None
@@ -77,7 +78,10 @@ def _words(node: NodeState) -> str:
 
 
 def outcome_aspects(one: Outcome, other: Outcome, *, exact: bool) -> Iterator[Aspect]:
-    """The differences between two outcomes, apart from `OF_THE_RUN`."""
+    """The differences between two outcomes, apart from `OF_THE_RUN`.
+
+    Unless `exact`, reason, candidates and tasks do not count either.
+    """
     left_out = {*OF_THE_RUN, *(() if exact else ("reason", "candidates", "tasks"))}
     names = [one.name for one in fields(Outcome)]
     mine, theirs = ({n: getattr(outcome, n) for n in names} for outcome in (one, other))
@@ -86,7 +90,10 @@ def outcome_aspects(one: Outcome, other: Outcome, *, exact: bool) -> Iterator[As
 
 
 def parting(one: Run, other: Run) -> Parting | None:
-    """The first difference between two recorded missions; None if all decisions are the same."""
+    """The first difference between two recorded missions; None if all decisions are the same.
+
+    Messages and measured values do not count.
+    """
     time_s = 0.0
     for a, b in zip_longest(one.ticks(), other.ticks()):
         if a is None or b is None:

@@ -9,11 +9,11 @@ from executive.text import printable
 from logs.questions.report import Span
 
 ROW, HEIGHT, MARGIN = 22.0, 14.0, 12.0
-"""Distance between rows, height of a bar, outer margin (px)."""
+"""Distance from row to row, height of a bar, outer margin (px)."""
 WIDTH, LETTER = 900.0, 6.2
 """Width of the time axis, and of a letter (px)."""
 LEAST = 2.0
-"""Width of a bar without a duration (px)."""
+"""The least width of a bar (px), for one without a duration."""
 STEPS_S = (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600)
 MOST_MARKS = 12
 

@@ -46,17 +46,18 @@ def write_files(frames: Frames, folder: Path, *, png: bool = False) -> list[Path
 
 
 def write_video(frames: Frames, file: Path) -> int:
-    """Write an MP4 (MPEG-4) in mission time; return the number of pictures.
+    """Write an MP4 (MPEG-4) that plays in mission time; return the number of frames in the video.
 
-    All pictures are shown at the size of the largest.
+    Each picture is shown until the next one was taken. All are scaled to the largest width and
+    height.
 
     Args:
         frames: the pictures; iterated twice.
         file: created when the video is complete; an existing file is replaced.
 
     Raises:
-        InputError: if there are no pictures, they span too long a time, or the file cannot be
-            written.
+        InputError: if there are no pictures, one cannot be decoded, they span too long a time, or
+            the file cannot be written.
     """
     sizes = [(at.time_s, *_size(at.value)) for at in frames]
     if not sizes:

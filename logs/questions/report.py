@@ -34,7 +34,7 @@ class Span:
 
 
 def summary(run: Run) -> Row:
-    """The outcome, the time spent, and the number of ticks, calls and pictures."""
+    """The outcome, the time of each behaviour, the faults, and the number of ticks and pictures."""
     outcome = run.outcome()
     return {
         "run": run.name,
@@ -58,7 +58,10 @@ def time_split(run: Run) -> dict[str, float]:
 
 
 def ticks(run: Run) -> list[Row]:
-    """Each tick: the events that caused it, which behaviour decided, and which ones changed."""
+    """Each tick: the events that caused it, which behaviour decided, and which ones changed.
+
+    Events that no tick followed, as after a stop, have a row without one.
+    """
     rows: list[Row] = []
     before: dict[str, NodeState] = {}
     for turn in run.turns():

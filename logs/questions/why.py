@@ -42,7 +42,7 @@ from logs.recording.reader import At, Run
 LOOK_OR_ASK = "look or ask"
 """The question that a plan answers."""
 MOST_TOLD, LEAST = 5, 0.005
-"""How many alternatives of a plan are told, and how likely a place must be for that."""
+"""The largest number of alternatives of a plan that are told, and the least probability of one."""
 SOMETHING = "something"
 _VERB = re.compile(r"\b(is|was|may)\b")
 
@@ -70,7 +70,7 @@ def _asked(run: Run) -> Iterator[Decision]:
 
 
 def _faults(run: Run) -> Iterator[Decision]:
-    """The faults that were ordered."""
+    """The injected faults that occurred in the simulated world."""
     for at in run.mishaps():
         yield Decision(at.time_s, "fault", f"{at.value.fault}: {at.value.text}", WORLD, "")
 
@@ -95,7 +95,7 @@ def _heard(run: Run) -> Iterator[Decision]:
 
 
 def _plans(run: Run) -> Iterator[Decision]:
-    """Where to look next, or to ask, by the plans."""
+    """The plans: where to look next, or whether to ask, with the other places."""
     for at in run.records(Planned):
         others = tuple(_less_likely(at.value))
         yield Decision(at.time_s, LOOK_OR_ASK, at.value.text, "", "", others)
@@ -146,7 +146,7 @@ class _Chain:
     def _settled(
         self, at: At[Tick], states: dict[str, NodeState], before: At[Tick] | None
     ) -> Iterator[Decision]:
-        """The fallbacks that a tick has settled."""
+        """The fallbacks that have succeeded or failed in a tick, and had not before it."""
         earlier = {node.path: node.status for node in before.value.nodes} if before else {}
         for fallback in self._branches.fallbacks:
             status = states[fallback.path].status
@@ -182,7 +182,7 @@ class _Chain:
         )
 
     def _passed_over(self, at: At[Tick]) -> Iterator[Alternative]:
-        """What the model has named or scored since the last decision of this kind, in vain."""
+        """What the model named or scored since the last sourced decision, and was not taken."""
         situation = at.value.situation
         taken = {c["place"] for c in situation.get("candidates") or ()}
         taken.add((situation.get("command") or {}).get("kind"))
@@ -198,6 +198,7 @@ class _Chain:
     def _reason(self, child: NodeShape, states: dict[str, NodeState]) -> str:
         """Why a child failed: the message of its last leaf that failed, now or before.
 
+        A leaf without a message counts as the opposite of its name, or as `no` if it is the child.
         Empty if no leaf has failed: there was nothing to try.
         """
         leaf = self._last(
@@ -287,7 +288,7 @@ def _less_likely(planned: Planned) -> Iterator[Alternative]:
 
 
 def _farther(seconds: float, next_s: float) -> str:
-    """How long going there and looking would take, compared with the next place."""
+    """The time to drive and look there, compared with the next place; empty if it is unknown."""
     if seconds < 0:
         return ""
     return f", {seconds:.0f} s away" + (f" instead of {next_s:.0f}" if next_s >= 0 else "")
@@ -301,7 +302,10 @@ def _outranked(call: LlmCall) -> list[Alternative]:
 
 
 def denied(condition: str) -> str:
-    """The opposite of a condition, whose name says what is true if it holds: `it was there`."""
+    """The opposite of a condition, whose name says what is true if it holds.
+
+    `it was there` becomes `it was not there`, and `in my hand` becomes `not in my hand`.
+    """
     if condition.startswith(SOMETHING):
         return f"nothing{condition.removeprefix(SOMETHING)}"
     contrary, verbs = _VERB.subn(r"\1 not", condition, count=1)

@@ -94,7 +94,7 @@ def _own(
     *,
     exact: bool = False,
 ) -> Channel[R]:
-    """A channel with a message of our own; `exact`: with the exact time."""
+    """A channel with a message of our own; `exact`: also with the mission time, not rounded."""
 
     def encode(told: R, context: Context) -> Any:
         fields = to_fields(told)
@@ -108,7 +108,7 @@ def _own(
 
 
 def _plain(topic: str, record: type[R], message: str = "") -> Channel[R]:
-    """A channel with a message whose fields are those of the record."""
+    """A channel whose messages have the record's fields, and its name or the name `message`."""
     name = message or record.__name__
     definitions = plain.definition(record, name)
     return _own(

@@ -11,14 +11,14 @@ SUFFIXES = (".mcap", ".rrd")
 
 
 class Chosen(NamedTuple):
-    """A run's folder or file, and why it was chosen from several (empty: it was the only one)."""
+    """A run's folder or file, and why it was chosen; empty if the names mean only this one."""
 
     run: Path
     why: str = ""
 
 
 def runs_in(folders: Iterable[Path]) -> Iterator[Path]:
-    """The given runs, and the runs in given folders."""
+    """The given runs, and those in given folders; a folder without runs is yielded as it is."""
     for folder in folders:
         inside = sorted(found.parent for found in folder.glob(f"*/{FILE_NAME}"))
         yield from [folder] if (folder / FILE_NAME).exists() or not inside else inside

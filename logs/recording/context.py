@@ -40,7 +40,7 @@ class Context:
         self.ns, self.stamp = ns, stamp
 
     def taken_ns(self, frame_number: int) -> int:
-        """When the picture with this number was taken (ns); now, if it is not the last one."""
+        """When the picture with this number was taken (ns); `ns`, if it is not the last one."""
         number, ns = self._picture
         return ns if number == frame_number else self.ns
 

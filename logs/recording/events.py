@@ -28,16 +28,16 @@ from logs.recording.sound import finite, whole
 T = TypeVar("T")
 
 MOST_PIXELS = 100_000
-"""Along one edge of a picture."""
+"""Limit for the position and the size of a detection's box (pixels)."""
 
 
 def event_to_fields(taken: EventTaken) -> dict[str, Any]:
     """`/event`: everything that a behaviour may read, and a summary in words."""
     event = taken.event
-    return {"name": type(event).__name__, "text": gist(event), **_beside_its_gist(event)}
+    return {"name": type(event).__name__, "text": gist(event), **_other_fields(event)}
 
 
-def _beside_its_gist(event: Event) -> dict[str, Any]:
+def _other_fields(event: Event) -> dict[str, Any]:
     match event:
         case DeadlinePassed(time):
             return {"deadline_s": time}
@@ -108,7 +108,11 @@ _RESULT_NAMED = by_name(_RESULTS, Result)
 
 
 def event_from_message(message: Any) -> EventTaken:
-    """The event of an `/event` message; its detections have points but no mask."""
+    """The event of an `/event` message; its detections have their position as only point, no mask.
+
+    Raises:
+        ValueError: if the event or its result is unknown, or a value in it is invalid.
+    """
     if message.name not in _EVENT_NAMED:
         raise ValueError(f"unknown event {message.name!r}")
     return EventTaken(_EVENT_NAMED[message.name](message))

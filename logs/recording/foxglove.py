@@ -117,7 +117,11 @@ def frame_transforms(transforms: Transforms, ns: int) -> FrameTransforms:
 
 
 def scene_update(scene: Scene, ns: int) -> SceneUpdate:
-    """Things with their shapes, each fixed in its frame."""
+    """Things with their shapes, each fixed in its frame.
+
+    Raises:
+        ValueError: if a shape is of an unknown kind, or its mesh cannot be read.
+    """
     return SceneUpdate(entities=[_entity(e, ns) for e in scene.entities])
 
 

@@ -1,8 +1,8 @@
 """Reads records of an mcap file that may come from a stranger: sizes are checked first.
 
-The framing is parsed here (https://mcap.dev/spec). Each record is parsed by mcap's own classes,
-from no more bytes than it has; a chunk is decompressed to no more than its declared and allowed
-size. The index at the end of a file is never used, as it may be wrong.
+The framing and the messages are parsed here (https://mcap.dev/spec). Other records are parsed by
+mcap's own classes, from no more bytes than they have; a chunk is decompressed to no more than its
+declared and allowed size. The index at the end of a file is never used, as it may be wrong.
 """
 
 import struct
@@ -31,7 +31,7 @@ MOST_IN_A_FACT = MiB
 MOST_KEPT = 256 * MiB
 """Maximum size of all attachments together (bytes)."""
 MOST_RECORDS = 1_000_000
-"""Maximum number of records in a file: ten hours of a robot that moves all the time."""
+"""Limit for the records in a file, in chunks or not: ten hours of a robot that always moves."""
 MOST_UNPACKED, MOST_PACKED_TIMES = 64 * MiB, 100
 """Limit for a decompressed file: this many bytes, plus this many times its own size.
 
@@ -48,7 +48,7 @@ _BROKEN = (McapError, struct.error, zstandard.ZstdError, RuntimeError, ValueErro
 
 @dataclass(frozen=True, slots=True)
 class Damage:
-    """What cannot be read, and why; `cut`: nothing of the file can be read after it."""
+    """What cannot be read, and why; `cut`: the file breaks off there, or has only zeros left."""
 
     what: str
     cut: bool = False
@@ -164,7 +164,7 @@ class _Walk:
         return record
 
     def _inside(self, chunk: Chunk) -> Iterator[McapRecord]:
-        """The records of a chunk; none if its checksum is wrong."""
+        """The records of a chunk; raises before the first if its size or checksum is wrong."""
         most = min(MOST_IN_A_RECORD, self._may_unpack)
         if chunk.uncompressed_size > most:
             raise _Unsound(
@@ -176,9 +176,9 @@ class _Walk:
         if len(data) != chunk.uncompressed_size:
             raise _Unsound(f"a chunk does not unpack to its {chunk.uncompressed_size} bytes")
         _check_sum("a chunk", data, chunk.uncompressed_crc)
-        return self._broken_up(data)
+        return self._split(data)
 
-    def _broken_up(self, data: bytes) -> Iterator[McapRecord]:
+    def _split(self, data: bytes) -> Iterator[McapRecord]:
         position = 0
         while position < len(data):
             if not self._may_find:
@@ -222,7 +222,7 @@ def _read(opcode: int, inside: bytes) -> McapRecord:
 
 
 def _unpacked(chunk: Chunk) -> bytes:
-    """The decompressed data: as many bytes as the chunk declares, at most one more."""
+    """Decompress at most one byte more than the chunk declares, whatever the packed data say."""
     most = chunk.uncompressed_size + 1
     match chunk.compression:
         case "":

@@ -51,7 +51,8 @@ def tree_from_message(message: Any) -> TreeShape:
     """The tree of a `/bt/tree` message.
 
     Raises:
-        ValueError: if it is not a tree: parents come before their children, and paths are unique.
+        ValueError: if it is not a tree (parents come before their children, and paths are unique),
+            or has too many behaviours or levels.
     """
     if len(message.behaviours) > MOST_BEHAVIOURS:
         raise ValueError(f"a tree of {len(message.behaviours)} behaviours")
@@ -100,7 +101,8 @@ def tick_from_message(message: Any) -> Tick:
     """The tick of a `/bt/tick` message.
 
     Raises:
-        ValueError: if it has too many behaviours, an unknown status, or an impossible situation.
+        ValueError: if it has too many behaviours, an unknown status, an impossible situation, or a
+            number that cannot be.
     """
     if len(message.behaviours) > MOST_BEHAVIOURS:
         raise ValueError(f"a tick of {len(message.behaviours)} behaviours")
@@ -179,7 +181,7 @@ def llm_call_from_message(message: Any) -> LlmCall:
     """The call of a `/llm/call` message.
 
     Raises:
-        ValueError: if it has no request, or a number in it is not finite.
+        ValueError: if it has no request, or a value in it is invalid.
     """
     read = whole(message.gen_ai_usage_input_tokens)
     usage = Usage(
@@ -222,7 +224,7 @@ def llm_call_from_message(message: Any) -> LlmCall:
 
 
 def _figure(count: float) -> int:
-    """A number of tokens; if a server sent something that is not a number, 0."""
+    """A whole number of tokens, as sent by a server; 0 if negative, infinite or too large."""
     return int(count) if isfinite(count) and 0 <= count <= MOST else 0
 
 
@@ -274,7 +276,11 @@ def _task_to_fields(task: TaskOutcome) -> dict[str, Any]:
 
 
 def finished_from_message(message: Any) -> Finished:
-    """The end of an `/outcome` message."""
+    """The end of an `/outcome` message.
+
+    Raises:
+        ValueError: if a kind, a status or a number in it is invalid.
+    """
 
     def optional(name: str) -> str | None:
         return _optional(message, name)

@@ -13,7 +13,7 @@ from logs.recording.older import recorded_class
 from logs.recording.sound import in_mission
 
 MOST_READ = 1024 * MiB
-"""Memory limit for the own messages that one question reads (bytes), generously estimated."""
+"""Memory limit (bytes) for the messages of our own in one pass, by a generous estimate."""
 MISFITS = (
     DecodeError,
     ValueError,
@@ -33,7 +33,7 @@ class Parsing:
     def __init__(self, topics: tuple[str, ...], origin_ns: int) -> None:
         """`topics` are wanted; mission time 0 is `origin_ns` after 1970 (ns)."""
         self.topic = topics[0]
-        """The topic of the last message."""
+        """The topic of the last wanted message; at first, the first of the wanted topics."""
         self._topics = topics
         self._origin_ns = origin_ns
         self._room = MOST_READ
@@ -44,7 +44,7 @@ class Parsing:
         """Topic, mission time (s) and message of a record; None if it is not a wanted message.
 
         Raises:
-            Exception: one of `MISFITS`, if the message has another form than ours.
+            Exception: one of `MISFITS`, if the message has another form than ours, or is too large.
         """
         match record:
             case Schema():
@@ -90,7 +90,7 @@ def _estimate(data: bytes, parsed: Any) -> int:
 
 
 def _parts(message: Any) -> int:
-    """The number of items in its lists, including those of nested messages."""
+    """The number of items in its lists, and in those of its parts that are in no list."""
     return sum(
         _parts(value) if isinstance(value, ProtobufMessage) else len(value)
         for _, value in message.ListFields()

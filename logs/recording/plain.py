@@ -1,4 +1,4 @@
-"""Records and messages with the same fields, of the same names and types."""
+"""Messages whose fields have the names and types of their record's fields."""
 
 from collections.abc import Callable
 from typing import Any, TypeVar, get_type_hints

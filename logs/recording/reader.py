@@ -50,7 +50,7 @@ class Turn:
     """One cycle of the executive: the events taken, and the tick that followed.
 
     After a stop, and at the end of an incomplete recording, there is no tick. `time_s` is the
-    exact mission time (s).
+    mission time at which the last event was taken (s), not rounded.
     """
 
     time_s: float
@@ -70,7 +70,7 @@ class Run:
         self.path = mcap_of(folder)
         named = self.path.parent if self.path.name == FILE_NAME else self.path
         self.name = named.resolve().name
-        """The name of its folder."""
+        """The name of its folder; of the file itself, if this is not called `mission.mcap`."""
         self.whole = is_whole(self.path)
         """Whether the recording was closed; False after a crash."""
         self.metadata: dict[str, str] = {}
@@ -85,13 +85,13 @@ class Run:
         """The recorded settings; empty if there are none.
 
         Raises:
-            InputError: if they are not TOML, or not settings of ours.
+            InputError: if they are not TOML, or have values that are not allowed.
         """
         content = self.attachments.get("config.toml", b"")
         return parse_toml(content, f"{self.path}: its config.toml")
 
     def records(self, *kinds: type[R]) -> Iterator[At[R]]:
-        """All records of these kinds, in order.
+        """All records of these kinds, in the order in which they were recorded.
 
         Raises:
             InputError: if something cannot be read.
@@ -162,7 +162,7 @@ class Run:
         return self._outcome
 
     def last_time_s(self) -> float:
-        """Mission time of the last message (s)."""
+        """The latest mission time of all messages (s), at least 0."""
         last = self._origin_ns
         for _, record in self._raw("its end"):
             if isinstance(record, Message):
@@ -252,6 +252,6 @@ def _exact_event(message: Any) -> _Exact:
 
 
 def _is_plain(name: str) -> bool:
-    """Whether an attachment has a plain file name."""
+    """Whether an attachment's name is that of a file: no folder, printable, at most 255 bytes."""
     plain = name == Path(name).name and name not in ("", ".", "..") and printable(name) == name
     return plain and len(name.encode()) <= 255

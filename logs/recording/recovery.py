@@ -31,7 +31,7 @@ def recover(path: Path) -> Path:
     The new file appears when it is complete, or not at all; the damaged file is not changed.
 
     Raises:
-        InputError: if it is not an mcap file, nothing of it can be read, or the disk is full.
+        InputError: if it is not an mcap file, nothing of it can be read, or no file can be written.
     """
     target = path.with_name(f"{path.stem}.recovered.mcap")
     with written(target) as file:

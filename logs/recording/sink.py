@@ -42,6 +42,9 @@ class McapSink:
             started: wall time at mission time 0 (with time zone).
             attachments: files to store with the run, by name: ontology, configuration.
             metadata: facts about the run: seed, versions, model.
+
+        Raises:
+            OSError: if the file cannot be written.
         """
         origin_ns = nanoseconds(started)
         self._file = path.open("wb")
@@ -110,7 +113,7 @@ def _bytes(channel: Channel[Any], message: Any) -> bytes:
 
 
 def _check_reads(channel: Channel[Any], message: Any) -> None:
-    """Raise if a message could not be read again: one such message spoils the whole recording."""
+    """Raise if a message could not be read again: readers stop at it, and the rest is lost."""
     if channel.decode is not None:
         channel.decode(message)
 

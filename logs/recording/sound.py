@@ -11,11 +11,11 @@ MOST = 2**63 - 1
 MOST_DEEP = 64
 """Maximum depth of a tree or a JSON value."""
 LONGEST_S = 30 * 86_400.0
-"""Maximum duration of a mission (s); a later time is an error."""
+"""Maximum duration of a mission (s); a time farther from 0 is an error."""
 
 
 class _There(BaseModel):
-    """A place and its source."""
+    """A place, with anything else that is known of it."""
 
     place: str
 

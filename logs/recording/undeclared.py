@@ -1,7 +1,7 @@
 """Reads recordings from before behaviours declared their meaning: it is taken from their names.
 
-Nothing else relies on names, and this table is complete: whatever is written today declares
-itself.
+Nothing else relies on names, and nothing is added to these tables: whatever is written today
+declares itself.
 """
 
 from dataclasses import replace

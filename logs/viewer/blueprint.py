@@ -35,7 +35,7 @@ class Layout(rrb.Blueprint):
 
 
 def mission_blueprint(entities: Iterable[Entity] = ()) -> Layout:
-    """Left: what the robot does and sees; middle: why; right: reasoning and dialog.
+    """Left: home and camera; middle: tree; right: belief, model, dialog; below: what ran when.
 
     Args:
         entities: the scene, once it is known, for a bird's-eye view of all that is fixed in `map`.

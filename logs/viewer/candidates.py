@@ -44,7 +44,7 @@ class CandidatesView:
             stream.log(path, rr.CoordinateFrame("map"), static=True)
 
     def place(self, entities: Iterable[Entity]) -> None:
-        """Remember where the furniture is: all entities in `map`."""
+        """Remember where the furniture is: all entities in `map`, without their meshes."""
         for entity in entities:
             shapes = [shape for shape in entity.shapes if shape.kind != "mesh"]
             if entity.frame_id == "map" and shapes:
@@ -86,7 +86,7 @@ def _balls(middles: list[Vector3], drawn: Mapping[str, State]) -> rr.Points3D:
 
 
 def _above(shapes: Sequence[Shape]) -> Vector3:
-    """A point above the middle of shapes in `map`."""
+    """A point in `map` (m) above the middle of shapes."""
     turns = np.stack([matrix_of(shape.pose.orientation) for shape in shapes])
     boxes = _CORNERS * np.array([shape.size for shape in shapes])[:, np.newaxis]
     middles = np.array([shape.pose.position for shape in shapes])[:, np.newaxis]

@@ -18,7 +18,7 @@ COMMAND = [sys.executable, "-m", "rerun", "--bind", "127.0.0.1"]
 START_S = 20.0
 """Time limit for the start of a viewer (s)."""
 SETTLE_S = 30.0
-"""Time limit until its picture no longer changes (s)."""
+"""Time limit until the viewer's picture no longer changes (s)."""
 _NO_VIEWER = "the rerun viewer does not start; it needs a display"
 
 
@@ -47,7 +47,7 @@ class LiveViewer:
     process: subprocess.Popen[bytes]
 
     def close(self) -> None:
-        """End the viewer and its process."""
+        """End `process` and the viewer, which is its child."""
         os.killpg(self.process.pid, signal.SIGKILL)
         self.process.wait()
 

@@ -63,7 +63,11 @@ def log_frames(stream: rr.RecordingStream) -> None:
 
 
 def log_scene(stream: rr.RecordingStream, entities: Iterable[Entity]) -> None:
-    """Log all shapes once; afterwards, only their frames move."""
+    """Log all shapes once; afterwards, only their frames move.
+
+    Raises:
+        ValueError: if a shape is of an unknown kind, or its mesh is missing.
+    """
     for entity in entities:
         by_kind = sorted(entity.shapes, key=lambda shape: shape.kind)
         for kind, shapes in groupby(by_kind, key=lambda shape: shape.kind):

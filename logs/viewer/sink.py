@@ -46,7 +46,7 @@ from logs.viewer.tree import TreeView
 
 APPLICATION = "robot-executive"
 FLUSH_S = 5.0
-"""Time limit of a flush (s)."""
+"""Time limit to open, flush or close the recording (s)."""
 
 _SPEAKERS = {"person": (120, 190, 255), "robot": (255, 200, 90)}
 
@@ -147,7 +147,11 @@ class RerunSink:
                 assert_never(record)
 
     def flush(self) -> None:
-        """Send everything to the file and the viewer."""
+        """Send everything to the file and the viewer.
+
+        Raises:
+            RuntimeError: if that fails, or takes longer than `FLUSH_S`, and there is no viewer.
+        """
         self._send_kept()
         try:
             self._stream.flush(timeout_sec=FLUSH_S)

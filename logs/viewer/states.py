@@ -14,13 +14,13 @@ class State(StrEnum):
     EMPTY = "empty"
     """The thing was looked for there, in vain."""
     BEEN = "been"
-    """The robot was there, and looked for no one thing: it counts, say."""
+    """The robot was there, but not to find one thing: it counts things, for example."""
     UNREACHED = "unreached"
     FOUND = "found"
 
 
 def states(situation: Mapping[str, Any]) -> dict[str, State]:
-    """The candidates in their order, each with its state.
+    """The state of each place: the candidates in their order, then others that were tried.
 
     Args:
         situation: the snapshot in each tick.

@@ -25,7 +25,7 @@ _STATUS_STYLE = rr.StateConfiguration(
     visible=[status != "INVALID" for status in COLORS],
 )
 _SIGNS = {"sequence": "→", "selector": "?", "parallel": "||", "decorator": "◇"}
-"""The viewer crashes if its font lacks a sign."""
+"""Only signs that the viewer's font has: it crashes at others."""
 
 _ROW, _INDENT, _COLUMN, _LETTER, _PADDING = 34.0, 48.0, 170.0, 5.8, 20.0
 """Layout of the graphs (viewer units): a row, a level (in either layout), a letter, a margin."""
@@ -46,8 +46,9 @@ class TreeView:
         self._lanes = {node.path: _lane(LANES, i, node) for i, node in enumerate(stages, start=1)}
         """The lanes of the stages of the mission."""
         self._every = {node.path: _lane(EVERY, i, node) for i, node in enumerate(tree.nodes)}
+        """The lanes of all behaviours."""
         self._shown: dict[str, str] = {}
-        """The current state of each lane."""
+        """The last logged state of each lane."""
         self._graphs: dict[str, tuple[Sequence[NodeShape], list[int]]] = {}
         """The nodes of each graph, and their colours."""
 
