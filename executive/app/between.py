@@ -27,7 +27,7 @@ class Between:
         """Prompt the person and wait for a command; None if the input or the session has ended.
 
         Raises:
-            KeyboardInterrupt: if a signal says stop.
+            KeyboardInterrupt: if a stop ends the session, as a signal does.
         """
         if self.heard:
             return self.heard.popleft()

@@ -29,16 +29,16 @@ class Furnished(Protocol):
         ...
 
     def put(self, name: str, furniture: str) -> bool:
-        """Put a thing on other furniture, as a person would; whether that was possible."""
+        """Put a thing on other furniture, as a person would; return whether that was possible."""
         ...
 
 
 def nothing() -> None:
-    """Do nothing, as most bodies do when a mission begins or the session ends."""
+    """Do nothing, as most bodies do when a mission begins or ends, or the session ends."""
 
 
 def no_pause(seconds: float) -> None:
-    """Do not wait: nothing changes in a home where nobody lives."""
+    """Do nothing: in a home where nobody lives, nothing changes with time."""
 
 
 @dataclass(frozen=True)
@@ -99,7 +99,7 @@ class Embodiment:
         keeps: the simulated world, if its things can be saved where they are (`--home-state`).
         begin: called when a mission begins, to record the scene.
         end: called when a mission has ended.
-        pause: called before the next mission, with the seconds to wait in a home where people live.
+        pause: lets so many seconds pass in a home where people live, before the next mission.
         close: called once, at the end of the session.
     """
 

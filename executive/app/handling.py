@@ -27,7 +27,8 @@ EYE_M = 1.2
 WAYS, SPOTS = 4, 8
 """The largest number of grasps for each tilt of the hand, and of spots for each surface."""
 ON_FLOOR_M = 0.3
-"""A thing below this height, and not on the furniture before the robot, is on the floor."""
+"""A thing below this height (metres) that is not on the furniture before the robot is on the
+floor."""
 AROUND_M = 2.5
 """Furniture that is farther away is no obstacle for the arm (metres)."""
 
@@ -47,7 +48,10 @@ class KnownThings:
         return self._home.drawn_models()
 
     def grasps(self, detection: Detection, base: Pose) -> Sequence[Hold]:
-        """Grasps for a detected thing, the best first: from above before horizontal."""
+        """Grasps for a detected thing, the best first: from above before horizontal.
+
+        Empty if its shape is not known, or it was not located.
+        """
         model = self._models.get(detection.label)
         if model is None or not len(detection.points):
             return ()
@@ -68,7 +72,7 @@ class KnownThings:
                     yield Hold(where, grasp.gap, thing, box, grip_force(model, thing, hand))
 
     def spots(self, place: str, label: str, seen: Floats) -> Sequence[Pose]:
-        """Poses in which the thing can stand on the furniture, the easiest first."""
+        """Poses (in `map`) in which the thing can stand, for each surface the easiest first."""
         from sim.manipulation.placing import free_spots
 
         piece, model = self._home.furniture_named(place), self._models[label]
@@ -81,7 +85,10 @@ class KnownThings:
     def stances(
         self, place: str | None, point: Vector3, base: Pose, near_m: float
     ) -> Sequence[Planar]:
-        """Base poses in front of the furniture, opposite the point; or around it, on the floor."""
+        """Base poses (in `map`) in front of the furniture, opposite the point.
+
+        They are around the point if it is on the floor, or if `place` is no furniture.
+        """
         from sim.manipulation.reaching import floor_poses, standing_poses
 
         target, piece = np.array(point), self._piece(place)
@@ -93,12 +100,12 @@ class KnownThings:
         return [(float(x), float(y), float(yaw)) for x, y, yaw in poses]
 
     def _piece(self, place: str | None) -> Furniture | None:
-        """The furniture before which the robot stands; None if it is with the person."""
+        """The furniture of this name; None if `place` is None, or is not furniture."""
         pieces = (*self._home.furniture, self._home.delivery)
         return next((piece for piece in pieces if piece.name == place), None)
 
     def obstacles(self, base: Pose) -> Sequence[Obstacle]:
-        """The shapes of the furniture around the robot."""
+        """The shapes of the furniture around the robot, in `map`."""
         x, y, _ = base.position
         pieces = (*self._home.furniture, self._home.delivery)
         return [

@@ -38,7 +38,7 @@ class LivingHome:
         before = read_state(self._file, home) if self._file else None
         spots = dict(before.objects) if before else {}
         self.left = {name: spot for name, spot in spots.items() if name not in settings.place}
-        """The things that are elsewhere than the home file and `--place` say."""
+        """Where things were left, but for those that `--place` puts somewhere."""
         self.home = home.as_left(self.left)
         self._spots = dict(self.home.objects)
         self._habits = load_habits(settings.habits, home) if settings.habits else None
@@ -49,7 +49,11 @@ class LivingHome:
         self._during: Clock | None = None
 
     def now(self) -> float:
-        """The time in the home: UTC (s); never earlier than when things were left."""
+        """The time in the home: UTC (s).
+
+        If the home is kept or has residents, its time begins no earlier than when things were left,
+        and goes on by missions and the time between them. Otherwise it is the real time.
+        """
         if self._world is None:
             return time.time()
         return self._time_s + (self._during.now() if self._during else 0.0)
@@ -73,18 +77,18 @@ class LivingHome:
         begin, clock = embodiment.begin, embodiment.clock
 
         def begin_mission() -> None:
-            self._live_on()
+            self._advance()
             self._during = clock
             begin()
 
         return replace(embodiment, begin=begin_mission, end=self._end, pause=self._pause)
 
     def _pause(self, seconds: float) -> None:
-        """Let time pass before the next mission."""
+        """Advance the time of the home before the next mission; returns at once."""
         self._time_s += seconds
 
-    def _live_on(self) -> None:
-        """Advance the time since the last mission, and move things by the residents' habits."""
+    def _advance(self) -> None:
+        """Let `hours_between` pass, and apply the residents' moves since the last mission."""
         since = self._time_s if self._lived_s is None else self._lived_s
         self._time_s += self._hours * 3600.0
         if self._habits and self._world:
@@ -118,7 +122,7 @@ class LivingHome:
 
 
 def _plain(spot: Spot) -> Spot:
-    """The position alone, without the other values of an entry in a home file."""
+    """The place and pose alone, without the other values of an entry in a home file."""
     return Spot.model_construct(
         furniture=spot.furniture, surface=spot.surface, at=spot.at, yaw=spot.yaw
     )

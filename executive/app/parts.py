@@ -209,7 +209,10 @@ def furniture_at(home: Home, point: Vector3) -> str | None:
 
 
 def near_person(home: Home) -> tuple[str, ...]:
-    """All furniture: first that of the delivery table's room, each group the nearest first."""
+    """All furniture: first that of the delivery table's room, then the other.
+
+    Each group is sorted by the straight distance from where the robot stands at that table.
+    """
     here = home.stand(DELIVERY)[:2]
 
     def far(piece: Furniture) -> tuple[bool, float]:

@@ -45,7 +45,7 @@ class Recording:
     def sinks(
         self, folder: Path, started: datetime, before: dict[str, str]
     ) -> tuple[list[Sink], bool]:
-        """Open the logs of a mission, as `open_sinks` does.
+        """Open the logs of a mission, as `open_sinks` does, and write its settings beside them.
 
         `before` is the state at its beginning, as metadata.
         """

@@ -93,7 +93,8 @@ class Session:
             gui: whether to show the simulator's own window.
             out: where the robot's words go; by default standard error.
             recorded: whether each mission leaves a run folder.
-            sinks: get every record, recorded or not, and are closed after each mission.
+            sinks: further logs; they get every record, also if not `recorded`, and are closed after
+                each mission.
             sources: know where things are; asked in this order, after the robot's own memory.
             policy: the name of `change` in recordings.
             change: replaces parts; a replay of the recordings must be given the same.
@@ -206,7 +207,10 @@ class Session:
         return outcome
 
     def _new_folder(self, started: datetime, words: str) -> Path | None:
-        """A new run folder; if none can be made, only the first mission is given up for that."""
+        """A new run folder; None, with a warning, if a later one than the first cannot be made.
+
+        By then the robot is in use, and goes on without logs.
+        """
         try:
             return new_folder(self.settings.runs, started, words)
         except InputError as error:
@@ -334,7 +338,7 @@ class Session:
         """Prompt the person and wait for a command; None if the input or the session has ended.
 
         Raises:
-            KeyboardInterrupt: if a signal says stop.
+            KeyboardInterrupt: if a stop ends the session, as a signal does.
         """
         return self._between.next_command(console, prompt)
 

@@ -99,7 +99,10 @@ def physics(setup: Setup) -> Embodiment:
 
 
 def blind_to(home: Home, detector: Detector) -> tuple[str, ...]:
-    """The objects that the home declares and the detector does not know."""
+    """The objects that the home declares and the detector does not know.
+
+    Empty if the detector has no attribute `labels`.
+    """
     labels = getattr(detector, "labels", None)
     return () if labels is None else tuple(name for name in home.own if name not in labels)
 

@@ -27,7 +27,7 @@ def checked(sources: object) -> tuple[PlaceSource, ...]:
     """Validate the sources that a session is given.
 
     Raises:
-        InputError: if it is not a list of sources with different names.
+        InputError: if it is not a list of sources, or a name is taken or occurs twice.
     """
     if isinstance(sources, str | bytes | Mapping) or not isinstance(sources, Iterable):
         what = f"one {type(sources).__name__} is no list"
@@ -126,7 +126,7 @@ class RecordedExperience:
 
 
 def _next(answers: Mapping[str, list[tuple[T, ...]]], thing: str) -> tuple[T, ...]:
-    """The next answer about a thing; the last one is repeated."""
+    """The next answer about a thing; the last one is repeated. Empty if there is none."""
     left = answers.get(thing, [()])
     return left.pop(0) if len(left) > 1 else left[0]
 
@@ -144,7 +144,7 @@ _FILE = TypeAdapter(tuple[Written, ...])
 
 
 def written(sources: Iterable[PlaceSource]) -> bytes:
-    """Names and clauses of the sources, as JSON for a recording."""
+    """Names and clauses of the sources, as JSON for a recording; no source is asked anything."""
     named = tuple(Written(printable(source.name), printable(source.says)) for source in sources)
     return _FILE.dump_json(named, exclude_defaults=True)
 

@@ -63,7 +63,7 @@ def listen(
 
 
 def ears_of(parts: Parts, person: Console) -> Ears:
-    """The recogniser that the settings name; if it is a server, the person is told.
+    """The recogniser that the settings name; the person is told if sound leaves this machine.
 
     Raises:
         InputError: if it cannot be opened.
@@ -95,7 +95,7 @@ def ears_of(parts: Parts, person: Console) -> Ears:
 
 
 def vocabulary(knowledge: Ontology) -> Vocabulary:
-    """The names of the things and places of this home."""
+    """The names of the things and places of this home that a grammar of speech can have."""
     names = dict.fromkeys(spoken(name) for name in knowledge.names())
     things = [name for name in names if knowledge.objects_named(name)]
     places = [name for name in names if knowledge.places_named(name)]
@@ -103,5 +103,5 @@ def vocabulary(knowledge: Ontology) -> Vocabulary:
 
 
 def _is_plain(name: str) -> bool:
-    """Whether a name has only letters: the grammar cannot have other characters."""
+    """Whether a name has only letters and spaces: others have a meaning in a grammar of speech."""
     return name.isascii() and name.replace(" ", "").isalpha()

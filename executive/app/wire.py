@@ -59,7 +59,11 @@ def wire(setup: Setup) -> Embodiment:
 
 
 def ways_of(home: Home, profile: Profile) -> Callable[[str, str], float]:
-    """A function for the duration (s) of drives by the home's map, for the profile's speed."""
+    """A function for the duration (s) of a drive between two places, by the home's map.
+
+    A robot that is slower than the simulated one takes longer; a faster one counts as equal. With a
+    camera that reads tags, drives are straight, as in the instant world.
+    """
     if profile.camera.tags:
         return partial(straight_s, home)
     durations = durations_in(home, OccupancyGrid.from_home(home))

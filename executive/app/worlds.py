@@ -15,8 +15,7 @@ def embody(setup: Setup) -> Embodiment:
     """Build the embodiment that the settings name.
 
     Raises:
-        InputError: if a user's own cannot be imported or built, or lacks what the settings ask
-            for.
+        InputError: if it cannot be imported, built or connected to, or a setting does not fit it.
     """
     name = setup.settings.world
     if setup.settings.profile and not setup.settings.robot:

@@ -47,7 +47,7 @@ class Reworded:
         return self._model.rank(request)
 
     def prepare(self, request: ChatRequest | RankRequest) -> None:
-        """Prepare for requests that are not reworded."""
+        """Prepare for rankings only: chats about places are reworded."""
         if isinstance(request, RankRequest):
             self._model.prepare(request)
 
@@ -72,7 +72,7 @@ def any_names(request: ChatRequest) -> ChatRequest:
 
 
 def no_home(request: ChatRequest) -> ChatRequest:
-    """Leave out what the prompt says about the home."""
+    """Leave out what the prompt says about the home, and accept any names in the reply."""
     told = [message for message in request.messages if message.role != "system"]
     return replace(any_names(request), messages=(Message("system", WITHOUT_A_HOME), *told))
 
@@ -96,7 +96,7 @@ def reworded(reword: Callable[[ChatRequest], ChatRequest]) -> Change:
 
 
 def unverified(parts: Parts) -> Parts:
-    """Replace the advice by one without the existence check."""
+    """Replace the advice by one without the existence check, if there is a model."""
     if parts.model is None:
         return parts
     settings = parts.settings
@@ -122,7 +122,7 @@ class TooSure(Ranker):
 
 
 def too_sure(parts: Parts) -> Parts:
-    """Inject a fault: a ranker that is far too sure."""
+    """Inject a fault: a ranker that is far too sure, if there is advice."""
     if parts.advice is None:
         return parts
     ranker = TooSure(parts.knowledge, prompts=parts.prompts, facts=parts.facts)

@@ -97,7 +97,7 @@ def run(block: Block, before: Iterable[Entry] = ()) -> Generator[Entry, None, No
             mission becomes an entry instead.
     """
     ended = {entry.row.key: entry for entry in before}
-    rest = _Rest(block)
+    rest = _BlockRun(block)
     try:
         for turn, key in enumerate(block.keys):
             if key in ended:
@@ -108,7 +108,7 @@ def run(block: Block, before: Iterable[Entry] = ()) -> Generator[Entry, None, No
         rest.close()
 
 
-class _Rest:
+class _BlockRun:
     """Runs the rest of a block's missions, and keeps model and dialogue between them."""
 
     def __init__(self, block: Block) -> None:
@@ -244,7 +244,7 @@ def _row(
         generated_tokens=sum(u.output_tokens for u in usage),
         llm_s=round(sum(u.total_s for u in usage), 3),
         thinking_time_s=outcome.thinking_time_s,
-        thought_moving_s=_beside_s(outcome, observed),
+        thought_moving_s=_thought_moving_s(outcome, observed),
         driving_s=round(observed.seconds["driving"], 3),
         looking_s=round(observed.seconds["looking"], 3),
         handling_s=round(observed.seconds["handling"], 3),
@@ -263,7 +263,7 @@ def _row(
     )
 
 
-def _beside_s(outcome: Outcome, observed: Observed) -> float:
+def _thought_moving_s(outcome: Outcome, observed: Observed) -> float:
     """How long the robot did something else while the model computed (s)."""
     return round(max(0.0, outcome.thinking_time_s - observed.seconds["thinking"]), 3)
 

@@ -68,7 +68,9 @@ class Campaign:
         self._folder = Folder(self._out, settings[0], commands, self._journal)
 
     def run(self) -> int:
-        """Run the missions that have not ended; the tables are written however it ends.
+        """Run the missions that have not ended; return the exit status.
+
+        The tables are written however the run ends.
 
         Raises:
             ExecutiveError: if missions cannot be run, or journal or tables cannot be written.
@@ -126,8 +128,8 @@ def all_settings(options: argparse.Namespace) -> tuple[Settings, ...]:
             options.config,
             world="fake" if options.setting == "ideal" else "physics",
             user="oracle",
-            home=home and at_any_folder(home),
-            llm=llm and at_any_folder(llm),
+            home=home and absolute_if_file(home),
+            llm=llm and absolute_if_file(llm),
             habits=options.habits,
             question_s=options.question_s,
             elicit=options.elicit,
@@ -145,7 +147,7 @@ def all_settings(options: argparse.Namespace) -> tuple[Settings, ...]:
     return found
 
 
-def at_any_folder(name_or_file: str) -> str:
+def absolute_if_file(name_or_file: str) -> str:
     """The absolute path of a file, so that other processes find it; other names unchanged."""
     is_file = blocks.label_of(name_or_file) != name_or_file
     return str(Path(name_or_file).resolve()) if is_file else name_or_file
@@ -167,7 +169,10 @@ def cluster(address: str) -> Runner:
 
 
 def as_in_paper(settings: Sequence[Settings], commands: Sequence[str]) -> tuple[str, ...]:
-    """The homes whose figures are comparable with the paper's: its own, with its commands."""
+    """The homes whose figures are comparable with the paper's.
+
+    That is only the paper's own, with its commands, and without changed places or faults.
+    """
     if tuple(commands) != paper.COMMANDS:
         return ()
     return tuple({s.home for s in settings if not (s.place or s.fault)} & {paper.HOME})

@@ -23,8 +23,9 @@ def commands() -> tuple[str, ...]:
 def drawn(home: Home, thing: str, seed: int) -> dict[str, str]:
     """Draw a placement for a thing: furniture of a kind, in a kind of room, from the survey.
 
-    All such pieces that have room are equally likely. If the survey has no record of the thing, or
-    the home has no such furniture, all furniture is.
+    All such pieces with enough space are equally likely. If the home has no such piece, furniture
+    of the kind in any room is; if there is none, or the survey has no record of the thing, all
+    furniture is. The placement is empty if none of these pieces has enough space.
     """
     pieces = home.places()
     usual = {(p.kind, p.room_kind) for p in _surveyed(thing)}

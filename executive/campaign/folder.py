@@ -24,7 +24,7 @@ from executive.shell import on_stop_signals
 from executive.terminal import show_over
 from executive.text import printable
 
-OF_A_MISSION = {"knowledge", "defaults", "seed", "runs", "home", "llm"}
+VARIED = {"knowledge", "defaults", "seed", "runs", "home", "llm"}
 """Settings that a campaign varies."""
 SHOWN_EVERY_S = 0.5
 
@@ -33,7 +33,7 @@ class Progress:
     """One line on standard error: missions done, and the time left at the pace so far."""
 
     def __init__(self, total: int, count: Callable[[], int], out: TextIO | None = None) -> None:
-        """`count` returns the number of ended missions; those at the start do not count as pace."""
+        """`count` returns how many missions have ended; those ended before do not count as pace."""
         self._total, self._count = total, count
         self._before = count()
         self._began = self._shown = time.monotonic()
@@ -133,7 +133,7 @@ class Folder:
         return self._interrupted
 
     def _interrupt(self, number: int, frame: FrameType | None) -> None:
-        """Set a flag and raise: within a callback, the exception would be lost."""
+        """Raise, and set a flag, too: the exception is lost if it is raised within a callback."""
         again, self._interrupted = self._interrupted, True
         if number == signal.SIGINT or not again:  # a closing terminal sends several signals
             raise KeyboardInterrupt
@@ -151,7 +151,7 @@ def make_folder(folder: Path, option: str) -> None:
     """Make a folder if there is none, and check that it is writable.
 
     Raises:
-        InputError: if it is not; names the option.
+        InputError: if it cannot be made or written to; names the option.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -163,12 +163,15 @@ def make_folder(folder: Path, option: str) -> None:
 
 
 def claim(out: Path, settings: Settings, commands: Sequence[str]) -> dict[str, str]:
-    """Write the campaign's settings to `campaign.json`, or compare; return facts for the report.
+    """Write the campaign's settings to `campaign.json`, or compare them with those in it.
+
+    Returns:
+        Facts for the report.
 
     Raises:
         InputError: if it cannot be written, or holds a campaign with other settings.
     """
-    grid = settings.model_dump(mode="json", exclude=OF_A_MISSION)
+    grid = settings.model_dump(mode="json", exclude=VARIED)
     mine = {"settings": grid, "commands": list(commands)}
     file = out / "campaign.json"
     try:

@@ -48,7 +48,7 @@ class Row:
     seed: int
     command: str
     turn: int
-    """Index among its block's commands."""
+    """Index among its block's commands, from 0."""
     kind: str = ""
     object: str = ""
     status: str = CRASHED
@@ -84,7 +84,8 @@ class Row:
     mission_time_s: float = 0.0
     wall_time_s: float = 0.0
     search_s: float = 0.0
-    """Mission time of driving to places and looking there, until the thing was seen."""
+    """Mission time of driving to places and looking there, until the thing was seen; and again if
+    it had to be searched for again."""
     cost_s: float = 0.0
     """`search_s`, plus the cost of each question by the settings."""
     sure: float = 0.0
@@ -188,7 +189,7 @@ def in_order(rows: Iterable[Row], policies: Sequence[str] = ()) -> list[Row]:
     return sorted(rows, key=place)
 
 
-def _inert(value: object) -> object:
+def _not_a_formula(value: object) -> object:
     """The value, quoted if a spreadsheet would take it for a formula."""
     return f"'{value}" if isinstance(value, str) and value[:1] in tuple("=+-@\t\r") else value
 
@@ -205,5 +206,5 @@ def write_tables(rows: Sequence[Row], folder: Path) -> None:
         writer = csv.DictWriter(stream, names)
         writer.writeheader()
         for row in rows:
-            writer.writerow({key: _inert(value) for key, value in asdict(row).items()})
+            writer.writerow({key: _not_a_formula(value) for key, value in asdict(row).items()})
     pq.write_table(table_of(Row, rows), folder / "results.parquet")

@@ -81,7 +81,7 @@ class Observed:
         )
 
     def believed(self, place: str | None) -> tuple[float, float, int]:
-        """The belief before the first look; (0, 0, 1) without a plan.
+        """The belief before the first look; (0, 0, 1) without a plan or a place.
 
         Returns:
             Probability of the likeliest place, probability of this place, and the number of places

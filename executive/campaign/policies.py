@@ -56,7 +56,7 @@ def baseline(rule: Callable[[Parts], Order]) -> tuple[Mapping[str, Any], Change]
     return BY_RANK, lambda parts: ordered(parts, rule)
 
 
-_WAYS: Mapping[str, tuple[Mapping[str, Any], Change]] = {
+_DEFINITIONS: Mapping[str, tuple[Mapping[str, Any], Change]] = {
     "ours": (PAPER, as_they_are),
     "paper": (PAPER, as_they_are),
     "plan": (PLAN, as_they_are),
@@ -83,7 +83,7 @@ _WAYS: Mapping[str, tuple[Mapping[str, Any], Change]] = {
 """Settings and change of each policy."""
 
 POLICIES: Mapping[str, Policy] = MappingProxyType(
-    {name: Policy(says, *_WAYS[name]) for name, says in DESCRIPTIONS.items()}
+    {name: Policy(says, *_DEFINITIONS[name]) for name, says in DESCRIPTIONS.items()}
 )
 """Our policies by name."""
 

@@ -86,9 +86,9 @@ def routes_in(home: str) -> Routes:
 def routes_of(home: Home) -> Routes:
     """The routes of this home, wherever its things are; cached."""
     key = home.model_dump_json(exclude={"objects"})
-    if key not in _drawn_up:
-        _drawn_up[key] = Routes(home)
-    return _drawn_up[key]
+    if key not in _cached:
+        _cached[key] = Routes(home)
+    return _cached[key]
 
 
-_drawn_up: dict[str, Routes] = {}
+_cached: dict[str, Routes] = {}

@@ -44,7 +44,7 @@ def _with_parts(tasks: Iterable[TaskOutcome]) -> Iterator[TaskOutcome]:
 def _undone(task: TaskOutcome, later: Iterable[TaskOutcome]) -> bool:
     """Whether later tasks have undone the result of a task.
 
-    They have if they moved the same thing, or needed the hand that held it.
+    They have if they were about the same thing, or needed the hand that held it.
     """
     in_hand = task.kind.means.grasps and not task.kind.means.carries
     return any(
@@ -55,7 +55,9 @@ def _undone(task: TaskOutcome, later: Iterable[TaskOutcome]) -> bool:
 
 
 def shortest_m(outcome: Outcome, home: Home, routes: Routes) -> float:
-    """The shortest path (metres) of a robot that knows where the thing is; 0 without a thing.
+    """The shortest path (metres) of a robot that knows where the thing is.
+
+    It goes to the thing, and on to the nearest place where the command may end; 0 without a thing.
 
     Args:
         outcome: the outcome, with the command.

@@ -31,7 +31,10 @@ def start_loading() -> BaseContext:
 
 @contextmanager
 def _stop_signals_held() -> Iterator[None]:
-    """Block the terminal's signals inside the block: processes started there inherit that."""
+    """Block the terminal's signals inside the block: processes started there inherit that.
+
+    This process gets them when the block ends.
+    """
     before = signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGINT, signal.SIGHUP))
     try:
         yield
@@ -41,7 +44,10 @@ def _stop_signals_held() -> Iterator[None]:
 
 @contextmanager
 def _importing_as_here() -> Iterator[None]:
-    """Let processes started inside the block import from the same paths as this one."""
+    """Let processes started inside the block import from the same paths as this one, in order.
+
+    Without `PYTHONSAFEPATH`, the current folder would come first.
+    """
     path = os.pathsep.join(map(os.path.abspath, sys.path))
     ours = {"PYTHONSAFEPATH": "1", "PYTHONPATH": path}
     before = {name: os.environ[name] for name in ours if name in os.environ}

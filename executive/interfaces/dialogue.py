@@ -69,7 +69,7 @@ class Interpreter(Protocol):
         ...
 
     def without_slips(self, words: str) -> Commands:
-        """The tasks in the words once a misspelt verb is corrected; empty if there are none."""
+        """The tasks in the words with slips corrected, such as a misspelt verb; empty if none."""
         ...
 
     def talk(self, words: str, things: Sequence[str] = ()) -> str:

@@ -27,7 +27,10 @@ class Knowledge(Protocol):
         ...
 
     def other_color(self, words: str) -> OtherColor | None:
-        """What the words mean without their colour: for "blue mug", the mug that is red."""
+        """What the words mean without their colour: for "blue mug", the mug that is red.
+
+        None if they name no colour, or something has it, or nothing matches without it.
+        """
         ...
 
     def objects_for(self, purpose: str) -> tuple[str, ...]:
@@ -142,7 +145,7 @@ class Experience(Protocol):
     def recalled(self, name: str) -> Sequence[Statement]:
         """What memory and habits say about where a thing is now; must return within milliseconds.
 
-        Empty if it was never seen. The most trusted statement comes first; the share of each is a
+        Empty if it was never seen. The most trusted statement comes first; the trust in each is a
         share of the probability that those before it leave.
         """
         ...

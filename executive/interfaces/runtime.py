@@ -47,7 +47,10 @@ class Clock(Protocol):
         ...
 
     def wait(self, deadline: float | None) -> None:
-        """Block until an event is in the inbox or the deadline (mission time, s) is reached."""
+        """Block until an event is in the inbox or the deadline (mission time, s) is reached.
+
+        With None, there is no deadline.
+        """
         ...
 
 

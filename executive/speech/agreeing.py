@@ -12,7 +12,10 @@ from executive.speech.sound import Sound
 
 
 class Agreeing:
-    """Implements `Ears` with the words of `first`; a yes or no is sure if `second` is sure."""
+    """Implements `Ears` with the words of `first`; only a yes or a no is ever sure.
+
+    It is sure if `second` is sure of the same answer.
+    """
 
     def __init__(self, first: Ears, second: Ears, agrees: Callable[[str], bool | None]) -> None:
         """`agrees` tells whether words are a yes, a no (False), or neither (None)."""

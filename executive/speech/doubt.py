@@ -16,14 +16,15 @@ from executive.speech.overlap import NONE, Overlap
 from executive.user import Console
 
 PATIENCE_S = 20.0
-"""How long (s) a confirmation waits for its yes."""
+"""How long (s) a confirmation waits for a spoken or typed answer; a button may be pressed later."""
 AGAIN_OR_TYPE = "Please say it again, or type it."
 UNCLEAR = "I did not understand you. Please say it again."
 YES_OR_NO = "Please say yes or no"
 OVERSPOKEN = "I was speaking, and did not understand you. Please say it again."
 TOO_MUCH = "That is more than I can hear at a time. Please say the last of it again."
 FRESH_S = 4.0
-"""The greatest age (s) of an utterance: an older one could answer a later question by mistake."""
+"""A sure utterance that began longer ago (s) is asked back: it could answer a later question by
+mistake."""
 SHORTEST = 3
 """The fewest letters of a word that may have been cut short."""
 OWN = 0.5
@@ -37,7 +38,7 @@ class AskedBack:
     """Words that wait for the person's confirmation.
 
     Attributes:
-        number: number of the confirmation.
+        number: number of the confirmation, by which a button answers it.
         words: the recognised words.
     """
 
@@ -78,7 +79,7 @@ class Doubt:
 
     @property
     def asked_back(self) -> AskedBack | None:
-        """The open confirmation, for a button; None if there is none."""
+        """The open confirmation, which a button may answer; None if there is none."""
         return self._asked
 
     def hear(self, reading: Reading, overlap: Overlap = NONE, began: float | None = None) -> None:
@@ -125,7 +126,7 @@ class Doubt:
             self._ask(text)
 
     def stop(self, *, busy: bool = True) -> None:
-        """Handle a spotted stop; if not `busy`, the robot only spoke, and nothing else stops."""
+        """Handle a spotted stop; if not `busy`, the robot only spoke: there is nothing to stop."""
         self._log(Reading(SPOTTER, "stop"), "a stop")
         self._take()
         if busy:
@@ -162,7 +163,10 @@ class Doubt:
         return True
 
     def _is_own(self, text: str, own: str) -> bool:
-        """Whether the robot heard itself; also a stop at rest: its reply would be heard again."""
+        """Whether the robot heard itself; a stop at rest counts as that.
+
+        Otherwise the robot would reply to it, hear its own reply, and so on.
+        """
         stops = control(text) is Control.STOP
         return is_own(text, own) or (stops and not self._person.is_busy)
 
@@ -196,7 +200,7 @@ class Doubt:
         return f"{YES_OR_NO}: {_bare(asked)}?"
 
     def _waiting(self) -> str:
-        """The words of the open confirmation; empty if there is none."""
+        """The words of the open confirmation; empty if there is none, or its time has passed."""
         with self._lock:
             return self._asked.words if self._asked and self._now() < self._until else ""
 

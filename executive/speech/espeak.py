@@ -14,9 +14,9 @@ from executive.text import one_line, printable
 PROGRAM = "espeak-ng"
 RIGHT = "apt install espeak-ng, or leave --voice out"
 MOST_CHARACTERS = 500
-"""The longest spoken text (characters): nobody listens longer."""
+"""Longer texts are cut after this many characters: nobody listens longer."""
 MOST_WAITING = 20
-"""The longest queue of sentences: later ones would come too late to be of use."""
+"""The longest queue of sentences; others are dropped: they would come too late to be of use."""
 FAULT = "error: "
 _STOP = re.compile(r"\bstop(ped|ping|s)?\b", re.IGNORECASE)
 _HALT = {"": "halt", "ped": "halted", "ping": "halting", "s": "halts"}
@@ -99,9 +99,9 @@ class EspeakVoice:
                 self._command, stdin=subprocess.PIPE, stdout=quiet, stderr=subprocess.PIPE
             )
         _, said = process.communicate(words.encode())
-        self._notice(said.decode(errors="replace"))
+        self._warn_of_errors(said.decode(errors="replace"))
 
-    def _notice(self, said: str) -> None:
+    def _warn_of_errors(self, said: str) -> None:
         """Warn once of an error message: without a loudspeaker, the program still exits with 0."""
         faults = [line for line in said.splitlines() if line.lower().startswith(FAULT)]
         if faults and not self._is_faulty:

@@ -20,8 +20,8 @@ log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, slots=True)
-class _Said:
-    """An utterance, when it began, and its turn."""
+class _Utterance:
+    """An utterance, when it began (by `time.monotonic`), and its turn."""
 
     turn: int
     began: float
@@ -36,7 +36,7 @@ class Hearing:
         """Start the thread."""
         self._ears = ears
         self._doubt = doubt
-        self._waiting: queue.Queue[_Said | None] = queue.Queue(MOST_WAITING)
+        self._waiting: queue.Queue[_Utterance | None] = queue.Queue(MOST_WAITING)
         self._turn = 0
         """Readings of utterances from an earlier turn are dropped."""
         self._thread = threading.Thread(target=self._hear, name="hearing", daemon=True)
@@ -46,7 +46,7 @@ class Hearing:
         """Queue an utterance that has just ended."""
         began = time.monotonic() - len(sound) / RATE_HZ
         try:
-            self._waiting.put_nowait(_Said(self._turn, began, sound, overlap))
+            self._waiting.put_nowait(_Utterance(self._turn, began, sound, overlap))
         except queue.Full:
             self._doubt.missed()
 
@@ -69,7 +69,7 @@ class Hearing:
                 self._hear_one(said)
             self._waiting.task_done()
 
-    def _hear_one(self, said: _Said) -> None:
+    def _hear_one(self, said: _Utterance) -> None:
         try:
             reading = self._ears.hear(said.sound)
         except Exception as error:  # ears of others must not end the thread

@@ -1,4 +1,4 @@
-"""The two interfaces of speech: recognition and output, each called from a thread of its own."""
+"""The two interfaces of speech: recognition and output."""
 
 from dataclasses import dataclass
 from typing import Protocol
@@ -56,7 +56,7 @@ class Ears(Protocol):
 
 
 class Voice(Protocol):
-    """Says aloud what the robot says."""
+    """Says aloud what the robot says. Any thread may call it."""
 
     def say(self, text: str) -> None:
         """Queue a sentence; returns at once. Never raises."""

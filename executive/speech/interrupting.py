@@ -6,13 +6,14 @@ read.
 """
 
 LEARN_S = 2.0
-"""How long (s) it measures its own voice before it detects anything."""
+"""How long (s) it measures the robot's voice before it detects anything."""
 LOUDER = 1.3
-"""Factor to the loudest of its own voice (tests/benchmarks/bench_own_voice.py --over): none of its
-own sentences is louder than those before it by this factor."""
+"""Somebody else is louder than the loudest of the robot's voice by this factor. No sentence of the
+robot was so much louder than those before it (tests/benchmarks/bench_own_voice.py --over)."""
 AT_LEAST_S = 0.2
+"""How long (s) somebody else has to be louder."""
 FORGETS = 0.995
-"""Factor for its own loudness with each block."""
+"""The measured loudness of the robot's voice decays by this factor with each block."""
 LEAST = 150.0
 """Level (root mean square) below which nothing is speech."""
 
@@ -26,7 +27,13 @@ class Interrupting:
         self._listened_s = self._louder_s = 0.0
 
     def add(self, level: float, seconds: float, *, speaking: bool) -> bool:
-        """Add a block with this level; return whether somebody else has been speaking."""
+        """Add a block; return whether somebody else speaks into the robot's words.
+
+        Args:
+            level: the level of the block (root mean square).
+            seconds: its duration.
+            speaking: whether the robot spoke meanwhile; if not, the result is False.
+        """
         if not speaking:
             self._louder_s = 0.0
             return False

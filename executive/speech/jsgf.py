@@ -15,8 +15,9 @@ LITTLE = frozenset(_WORDS["little"].split())
 """Function words, which say little about what to do."""
 OTHER_NAMES = frozenset(_WORDS["other_names"].split())
 OTHER_DEEDS = frozenset(ENGLISH["unable"].split())
-"""Words without a meaning in this home that may be said."""
-_NO_WORDS = re.compile(r"<[^>]*>|//.*|#JSGF.*|grammar \w+;|\bpublic\b")
+"""Names of things that this home may not have, and verbs for what the robot cannot do: people may
+say them all the same."""
+_SYNTAX = re.compile(r"<[^>]*>|//.*|#JSGF.*|grammar \w+;|\bpublic\b")
 _WORD = re.compile(r"[a-z'-]+")
 
 
@@ -25,7 +26,7 @@ def grammar(
 ) -> tuple[str, tuple[str, ...]]:
     """The grammar in JSGF, and the names left out because they have a word that is not `is_known`.
 
-    With `others`, it also has words without a meaning in this home.
+    With `others`, it also has `OTHER_NAMES` and `OTHER_DEEDS`, as far as they are known.
     """
     every = (*vocabulary.things, *vocabulary.places)
     unheard = tuple(name for name in every if not all(map(is_known, name.split())))
@@ -46,7 +47,7 @@ def grammar(
 
 def words_of_template() -> frozenset[str]:
     """All words of the grammar's template."""
-    return frozenset(_WORD.findall(_NO_WORDS.sub(" ", TEMPLATE)))
+    return frozenset(_WORD.findall(_SYNTAX.sub(" ", TEMPLATE)))
 
 
 def _with_rule(text: str, name: str, words: Sequence[str]) -> str:

@@ -40,7 +40,10 @@ class Listening:
         voice: Voice | None = None,
         live: bool = True,
     ) -> None:
-        """Connect the parts; `start` begins. If not `live`, each utterance waits for the ears."""
+        """Connect the parts; `start` begins.
+
+        If the sound is not `live`, listening waits until each utterance is recognised.
+        """
         self._blocks = blocks
         self._doubt = doubt
         self._person = person
@@ -54,7 +57,7 @@ class Listening:
         self._understands = True
         """Whether the last utterance could be a command; if not, the person was told already."""
         self._heard = False
-        """Whether any sound was heard."""
+        """Whether there was any utterance."""
         self._thread = threading.Thread(target=self._listen, name="ears", daemon=True)
 
     def start(self) -> None:
@@ -63,7 +66,7 @@ class Listening:
         self._thread.start()
 
     def close(self) -> None:
-        """Stop listening, and drop unfinished utterances."""
+        """Stop listening, and drop utterances that are not recognised yet."""
         self._closed = True
         self._hearing.forget()
 
@@ -88,7 +91,7 @@ class Listening:
             if self._hears_stop(block, saying):
                 cut, overlapping = Utterances(), Overlapping()
                 continue
-            self._notice_a_dead_one(block)
+            self._warn_if_dead(block)
             said, seconds = cut.add(block), len(block) / RATE_HZ
             overlapping.add(saying, seconds, loud=cut.is_loud)
             if self._interrupting.add(cut.level, seconds, speaking=bool(saying)):
@@ -121,12 +124,12 @@ class Listening:
         return True
 
     def _give_way(self, overlapping: Overlapping) -> None:
-        """Stop speaking if somebody interrupts."""
+        """Stop speaking, as somebody interrupts."""
         overlapping.interrupted()
         if self._voice:
             self._voice.hush()
 
-    def _notice_a_dead_one(self, block: Sound) -> None:
+    def _warn_if_dead(self, block: Sound) -> None:
         """Tell the person, once, if the microphone seems to be switched off."""
         before = self._dead_s
         self._dead_s = 0.0 if block.any() else before + len(block) / RATE_HZ

@@ -26,7 +26,7 @@ START_S = 0.3
 """A recorder that finds no device, or a busy one, ends within this time (s)."""
 MOST_SAID = 1 << 16
 NO_DEVICE = f"see what {RECORDER} -l lists, and that no other program records; or give a FILE.wav"
-_PLACE = re.compile(r"^\w+: (?:\w+:\d+: )?")
+_POSITION = re.compile(r"^\w+: (?:\w+:\d+: )?")
 """The position in its own source code, in the recorder's error messages."""
 RIGHT = f"give a FILE.wav, a folder of them, - for a pipe, or {RECORDER} for a microphone"
 
@@ -103,7 +103,7 @@ def _ended(process: subprocess.Popen[bytes], said: IO[bytes]) -> InputError:
     """The error of a recorder that has ended, with its last message."""
     said.seek(0)
     lines = said.read(MOST_SAID).decode(errors="replace").strip().splitlines()
-    why = _PLACE.sub("", lines[-1]) if lines else f"it ended with {process.returncode}"
+    why = _POSITION.sub("", lines[-1]) if lines else f"it ended with {process.returncode}"
     return InputError(f"--microphone {RECORDER}", f"nothing is recorded: {why}", NO_DEVICE)
 
 

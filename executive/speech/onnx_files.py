@@ -47,7 +47,7 @@ def onnx_files(folder: Path) -> OnnxFiles:
         names = sorted(path.name for path in folder.iterdir() if path.is_file())
     except OSError as error:
         raise InputError(where, error.strerror or "cannot be read") from None
-    found = {part: _of(where, part, names) for part in PARTS}
+    found = {part: _file_of(where, part, names) for part in PARTS}
     kind = _kind(where, found)
     tokens = [name for name in names if name.endswith("tokens.txt")]
     if len(tokens) != 1:
@@ -60,7 +60,7 @@ def onnx_files(folder: Path) -> OnnxFiles:
     return OnnxFiles(kind, {part: str(folder / name) for part, name in chosen.items()})
 
 
-def _of(where: str, part: str, names: list[str]) -> str:
+def _file_of(where: str, part: str, names: list[str]) -> str:
     """The file for a role; of several precisions the smallest (int8); empty if there is none."""
     fitting = [name for name in names if name.endswith(".onnx") and part in name.lower()]
     small = [name for name in fitting if ".int8." in name]

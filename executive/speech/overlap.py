@@ -1,11 +1,11 @@
-"""Estimates how much of an utterance is the robot's own voice, by when it spoke."""
+"""Finds the robot's own voice in an utterance, by when it spoke and when there was other sound."""
 
 from dataclasses import dataclass
 
 TAIL_S = 0.5
-"""How long (s) a room reverberates."""
+"""How long (s) a room reverberates after the robot has spoken."""
 LEAST_S = 0.3
-"""Sound outside the robot's own words that is shorter than this (s) is not a person's word."""
+"""Sound before or after the robot's words that is loud for less than this (s) is not speech."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -14,7 +14,8 @@ class Overlap:
 
     Attributes:
         own: what the robot said; empty if it was silent.
-        beside: whether somebody else spoke, too: before it began, after it had ended, or louder.
+        beside: whether somebody else spoke, too: before the robot began, after it had ended, or
+            louder than it; False if the robot was silent.
     """
 
     own: str = ""
@@ -35,7 +36,13 @@ class Overlapping:
         self._beside_s = 0.0
 
     def add(self, saying: str, seconds: float, *, loud: bool) -> None:
-        """Add a block of this duration, during which the robot said this."""
+        """Add a block.
+
+        Args:
+            saying: what the robot said meanwhile; empty if it was silent.
+            seconds: duration of the block.
+            loud: whether it is as loud as speech.
+        """
         if saying:
             self._tail_s = TAIL_S
             if not self._said or self._said[-1] != saying:

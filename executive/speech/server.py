@@ -15,14 +15,14 @@ from executive.speech.transcript import NotATranscript, Transcript, transcript
 from executive.text import printable
 
 MODEL = "whisper-1"
-"""The usual name of a server's first model; many servers accept any name."""
+"""The name of the first model of such servers; many accept any name."""
 NOT_HERE = (404, 405, 501)
 NOT_SO = (400, 415, 422)
 """HTTP statuses with which servers refuse an unsupported format of the reply."""
 DENIED = (401, 403, 407)
 BUSY = (429, 503, 529)
 MOST_OF_A_REPLY = 1 << 20
-"""The longest part of a reply that is read (bytes)."""
+"""The longest reply (bytes)."""
 
 
 class ServerEars:
@@ -54,7 +54,7 @@ class ServerEars:
         self.name = model or self._shown
         self._key = key or Key()
         self._timeout_s = timeout_s
-        self._said = {"model": model or MODEL, "language": language}
+        self._fixed_fields = {"model": model or MODEL, "language": language}
         self._bases = bases_of(url)
         self._formats: tuple[str, ...] = ("verbose_json", "json")
 
@@ -71,15 +71,15 @@ class ServerEars:
         if is_silent(sound):
             return Reading(self.name, "")
         try:
-            heard = asyncio.run(self._in_time(to_wav(sound)))
+            heard = asyncio.run(self._within_timeout(to_wav(sound)))
         except Exception as error:  # whatever a server does, listening goes on
-            return Reading(self.name, "", problem=self._sentence(error))
+            return Reading(self.name, "", problem=self._reason(error))
         return Reading(self.name, self._key.hidden_in(heard.text), heard.confidence)
 
     def close(self) -> None:
         """Do nothing: no connection stays open."""
 
-    async def _in_time(self, wav: bytes) -> Transcript:
+    async def _within_timeout(self, wav: bytes) -> Transcript:
         async with (
             asyncio.timeout(self._timeout_s),
             httpx2.AsyncClient(
@@ -88,15 +88,15 @@ class ServerEars:
                 trust_env=not is_this_machine(self._bases[0]),
             ) as client,
         ):
-            return await self._heard(client, wav)
+            return await self._transcribed(client, wav)
 
-    async def _heard(self, client: httpx2.AsyncClient, wav: bytes) -> Transcript:
+    async def _transcribed(self, client: httpx2.AsyncClient, wav: bytes) -> Transcript:
         """Try each address and format until the server answers; remember which worked."""
         refused: list[Refused] = []
         for base in self._bases:
             for form in self._formats:
                 try:
-                    heard = transcript(await self._asked(client, base, form, wav))
+                    heard = transcript(await self._reply(client, base, form, wav))
                 except Refused as error:
                     refused.append(error)
                     if error.status not in (*NOT_HERE, *NOT_SO):
@@ -108,8 +108,8 @@ class ServerEars:
                     return heard
         raise refused[0]
 
-    async def _asked(self, client: httpx2.AsyncClient, base: str, form: str, wav: bytes) -> bytes:
-        fields = {**self._said, "response_format": form}
+    async def _reply(self, client: httpx2.AsyncClient, base: str, form: str, wav: bytes) -> bytes:
+        fields = {**self._fixed_fields, "response_format": form}
         file = {"file": ("said.wav", wav, "audio/wav")}
         url = f"{base}/audio/transcriptions"
         async with client.stream("POST", url, data=fields, files=file) as response:
@@ -124,20 +124,20 @@ class ServerEars:
             raise NotATranscript("it is too long")
         return body
 
-    def _sentence(self, error: Exception) -> str:
+    def _reason(self, error: Exception) -> str:
         """Why it failed, as a clause; the key is removed if the server's message has it."""
         match error:
             case TimeoutError() | httpx2.TimeoutException():
                 return f"{self._shown} did not answer within {self._timeout_s:g} s"
             case Refused():
                 told = Refused(error.status, self._key.hidden_in(error.says))
-                return self._shortly(f"{self._shown} refused ({told})") + self._advice(error)
+                return self._shortened(f"{self._shown} refused ({told})") + self._advice(error)
             case NotATranscript():
                 return f"the reply of {self._shown} cannot be read: {error}"
             case httpx2.TransportError():
-                return f"{self._shown} cannot be reached: {self._shortly(why(error))}"
+                return f"{self._shown} cannot be reached: {self._shortened(why(error))}"
             case _:
-                return f"{self._shown} failed: {self._shortly(repr(error))}"
+                return f"{self._shown} failed: {self._shortened(repr(error))}"
 
     def _advice(self, refused: Refused) -> str:
         if refused.status in DENIED:
@@ -146,7 +146,7 @@ class ServerEars:
             return f"; it asks to wait {refused.wait_s:.0f} s"
         return ""
 
-    def _shortly(self, text: str) -> str:
+    def _shortened(self, text: str) -> str:
         text = self._key.hidden_in(printable(text))
         return text[: 2 * MOST_CHARACTERS] + "..." * (len(text) > 2 * MOST_CHARACTERS)
 

@@ -33,7 +33,7 @@ PATIENCE_S = 120.0
 """How long loading and trying a model may take (s)."""
 LONGEST_FAULT = 300
 FULL_SCALE = 32768.0
-_PLACE = re.compile(r"\S+\.(?:cc|h):\S*\d+ ?")
+_POSITION = re.compile(r"\S+\.(?:cc|h):\S*\d+ ?")
 """The position in its own source code, in the library's error messages."""
 
 
@@ -122,7 +122,7 @@ def _try(folder: Path, files: OnnxFiles, language: str) -> None:
 
 
 def _no_model(folder: Path, files: OnnxFiles, why: str) -> InputError:
-    said = _PLACE.sub("", why)[:LONGEST_FAULT]
+    said = _POSITION.sub("", why)[:LONGEST_FAULT]
     what = f"{NAME} cannot use its files as a {files.kind} model: {said}"
     return InputError(str(folder), what, "give a model that is not for streaming, all of one kind")
 

@@ -15,14 +15,14 @@ Sound = NDArray[np.int16]
 
 RATE_HZ = 16_000
 LONGEST_S = 60.0
-"""The longest sound in a file (s): nobody speaks a command longer without a break."""
+"""The longest sound in a file (s); a longer one is no command: nobody speaks so long at a time."""
 RIGHT = "record WAV, 16 bits, 16 kHz, one channel: arecord -f S16_LE -r 16000 -c 1 FILE.wav"
 SLOWEST_HZ, FASTEST_HZ = 8_000, 192_000
 MOST_BYTES = 100 << 20
-"""The largest file: a minute of high-quality stereo is smaller."""
+"""The largest file (bytes): a minute of high-quality stereo is smaller."""
 EXTENSIBLE = b"\xfe\xff"
 FLOOR = 3.0
-"""Standard deviation of an inaudible noise."""
+"""Standard deviation of an inaudible noise (full scale is 32,767)."""
 QUIET = 100
 """A peak below this (of 32,767) is silence: the noise of microphones is lower."""
 
@@ -34,7 +34,8 @@ def read_wav(path: Path) -> Sound:
     bits are converted to 16.
 
     Raises:
-        InputError: if it cannot be read, is not such a WAV, is empty, or longer than a minute.
+        InputError: if it cannot be read, is not such a WAV, has no sound, or is longer than a
+            minute or larger than 100 MB.
     """
     try:
         with path.open("rb") as file:
@@ -49,7 +50,8 @@ def read_wav(path: Path) -> Sound:
 def from_wav(content: bytes, where: str) -> Sound:
     """The sound in the content of a WAV file.
 
-    The length in the header is ignored: a program that writes into a pipe does not know it.
+    The length in the header may be too large, as a program that writes into a pipe does not know
+    it; then the samples that are there count.
 
     Raises:
         InputError: as `read_wav` does.
@@ -92,7 +94,7 @@ def _of_16_bits(frames: bytes, width: int) -> NDArray[np.float64]:
 
 
 def resampled(samples: NDArray[np.floating], rate_hz: int) -> Sound:
-    """Resample to 16 kHz."""
+    """Resample to 16 kHz, and round and clip to 16 bits."""
     if rate_hz != RATE_HZ and len(samples):
         from scipy.signal import resample_poly  # slow to import
 

@@ -1,10 +1,11 @@
 """Ears with a packaged model: pocketsphinx, with a grammar for this home.
 
-A grammar matches every sound to one of its sentences, also if it is something else. So an utterance
-is decoded three times: with the grammar; with the same grammar and many words more, which have no
-meaning in this home; and with phones only. If the first two do not agree, or a word fits its sounds
-much worse than the phones do, the confidence is low. In our measurements, one in fourteen readings
-with high confidence was still wrong, so that only a yes or a no is ever `sure`.
+A grammar matches every sound to one of its sentences, also if something else was said. So an
+utterance is decoded three times: with the grammar; with the same grammar and many words more, which
+have no meaning in this home; and with phones only. If a word fits its sounds much worse than the
+phones do, the confidence is low. If it is low, or the first two readings differ, the reading is not
+sure. In our measurements, one in fourteen readings that passed both tests was still wrong, so that
+only a yes or a no is ever `sure`.
 """
 
 import logging
@@ -27,18 +28,19 @@ if TYPE_CHECKING:
 NAME = "pocketsphinx"
 MISSING = "pip install 'robot-executive[speech]'"
 WORST = -10.0
-"""A word that fits worse than the phones by this, in the decoder's units per frame, is wrong."""
+"""A word that fits worse than the phones by this, in the decoder's units per frame, has a
+confidence of 0."""
 SLACK = 3.0
-"""The same for function words, which are short and spoken carelessly."""
+"""How much worse function words may fit (same units): they are short and spoken carelessly."""
 SURE = 0.6
 """Confidence from which a yes or a no is sure (tests/benchmarks/bench_speech.py --part dev)."""
 YES_OR_NO = frozenset(("yes", "yes please", "no", "okay"))
 LEAST = 0.3
-"""Below this confidence, a reading is not worth a question."""
+"""Below this confidence, a reading is not worth a question: its text is left out."""
 MOST_SWALLOWED = 6
 """Frames (of 10 ms) of speech allowed in a silence: the beginning or the end of a sound."""
 LOUD = 0.1
-"""A frame with this share of the loudest frame's level is speech."""
+"""A frame above this share of the loudest frame's level is speech."""
 _FRAME = RATE_HZ // 100
 _BEAMS = {"beam": 1e-64, "wbeam": 1e-50, "pbeam": 1e-64}
 """Wider than pocketsphinx's default: a sentence that is pruned is not found again."""
@@ -49,7 +51,10 @@ log = logging.getLogger(__name__)
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """A word, a noise or a phone, with its frames and its log-likelihood there."""
+    """A word, a noise or a phone, with its frames (`last` included) and its log-likelihood there.
+
+    The log-likelihood `score` is in the decoder's units.
+    """
 
     word: str
     first: int
@@ -80,9 +85,9 @@ class PocketsphinxEars:
         """
         self._words = decoder(**_BEAMS)
         for word in words_of_template():
-            self._learns(word)
-        own, unheard = grammar(vocabulary, self._learns)
-        wide, _ = grammar(vocabulary, self._learns, others=True)
+            self._can_pronounce(word)
+        own, unheard = grammar(vocabulary, self._can_pronounce)
+        wide, _ = grammar(vocabulary, self._can_pronounce, others=True)
         for name in unheard:
             log.warning("%s does not know how '%s' sounds: it has to be typed", NAME, name)
         self._words.add_jsgf_string("home", own)
@@ -111,8 +116,8 @@ class PocketsphinxEars:
     def close(self) -> None:
         """Do nothing: no resource stays open."""
 
-    def _learns(self, word: str) -> bool:
-        """Whether the pronunciation is known; that of a compound is added from its two words."""
+    def _can_pronounce(self, word: str) -> bool:
+        """Whether a pronunciation is known; that of a compound is made from its two words."""
         if self._words.lookup_word(word):
             return True
         for cut in range(len(word) - 3, 2, -1):
@@ -138,7 +143,7 @@ def certainty(words: list[Segment], phones: list[Segment], sound: Sound) -> floa
     spoken = [one for one in words if one.word != SILENCE]
     if not spoken or _is_swallowed(words, sound):
         return 0.0
-    by_sound = _a_frame(phones, 1 + max(one.last for one in (*words, *phones)))
+    by_sound = _per_frame(phones, 1 + max(one.last for one in (*words, *phones)))
     worst = min(_fit(one, by_sound) for one in spoken)
     return float(np.clip(1.0 - worst / WORST, 0.0, 1.0))
 
@@ -151,13 +156,13 @@ def _plain(one: Segment) -> str:
 
 
 def _fit(one: Segment, by_sound: NDArray[np.float64]) -> float:
-    """How much better than the phones a word fits, per frame."""
+    """How much better than the phones a word fits, per frame; mostly negative."""
     sounds = by_sound[one.frames]
     slack = SLACK if _plain(one) in LITTLE else 0.0
     return (one.score - float(sounds.sum())) / len(sounds) + slack
 
 
-def _a_frame(phones: list[Segment], frames: int) -> NDArray[np.float64]:
+def _per_frame(phones: list[Segment], frames: int) -> NDArray[np.float64]:
     """(frames,) the score of the phones in each frame."""
     scores = np.zeros(frames)
     for one in phones:

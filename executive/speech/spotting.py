@@ -1,7 +1,7 @@
 """Spots a spoken "stop" at once, while the person still speaks, independently of the ears.
 
 A false stop costs a repeated command; a missed one costs a vase. So the spotter is only used while
-there is something to stop, and then with many false alarms.
+there is something to stop, and is tuned to hear rather too many stops than too few.
 """
 
 import tempfile
@@ -11,12 +11,13 @@ from executive.speech.sound import RATE_HZ, Sound
 from executive.speech.sphinx import decoder
 
 STOP, STOP_TOO = "stop", "stopp"
-"""The American pronunciation, from the dictionary, and another: a keyword has only one."""
+"""Two keywords, as each has only one pronunciation: the American one, which is in the dictionary,
+and `OTHERS_SAY`."""
 OTHERS_SAY = "S T AO P"
 THRESHOLD = 1e-16
 """Threshold of the keyword: at 1e-8, a third of the spoken stops were missed."""
 FORGET_S = 20.0
-"""The spotter restarts after this much sound (s)."""
+"""The spotter restarts after this much sound without a stop (s)."""
 
 
 class StopSpotter:

@@ -10,11 +10,11 @@ from executive.servers.refusal import refusal_in
 from executive.text import one_line, writable
 
 MOST_CHARACTERS = 400
-"""The longest text of an utterance: on noise, models repeat themselves."""
+"""The longest text of an utterance; a longer one is dropped: on noise, models repeat themselves."""
 NO_SPEECH, HARDLY = 0.6, -1.0
-"""A segment with a higher probability of no speech, and unlikely words, is not speech: the rule of
-Whisper itself."""
-_ASIDE = re.compile(r"\[[^\]]*\]|\([^)]*\)|\*[^*]*\*|♪")
+"""A segment with a higher probability of no speech, and a lower mean log-probability of its words,
+is not speech: the rule of Whisper itself."""
+_ANNOTATION = re.compile(r"\[[^\]]*\]|\([^)]*\)|\*[^*]*\*|♪")
 """Annotations, which nobody said: [BLANK_AUDIO], (music), *coughs*."""
 
 
@@ -57,7 +57,7 @@ def transcript(body: bytes) -> Transcript:
 
 def said(text: str) -> str:
     """The words in a model's text, on one line; empty if there are none, or too many."""
-    words = one_line(_ASIDE.sub(" ", writable(text[: 4 * MOST_CHARACTERS])))
+    words = one_line(_ANNOTATION.sub(" ", writable(text[: 4 * MOST_CHARACTERS])))
     spoken = any(map(str.isalnum, words)) and len(words) <= MOST_CHARACTERS
     return words if spoken else ""
 

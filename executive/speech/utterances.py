@@ -7,7 +7,7 @@ import numpy as np
 from executive.speech.sound import RATE_HZ, Sound
 
 OVER_NOISE = 4.0
-"""Speech is louder than the background by this factor."""
+"""Speech is louder than the background, the sound between utterances, by this factor."""
 LEAST = 150.0
 """Level (root mean square) below which nothing is speech, however quiet it is otherwise."""
 BEFORE_S, PAUSE_S = 0.3, 0.7
@@ -35,7 +35,7 @@ class Utterances:
         self._loud_s = self._quiet_s = 0.0
 
     def add(self, block: Sound) -> Sound | None:
-        """Add a block; return the utterance that it ends, or None."""
+        """Add a block; return the utterance that ends with it, or None."""
         level = float(np.sqrt(np.mean(block.astype(np.float64) ** 2))) if len(block) else 0.0
         self.level, self.too_long = level, False
         seconds = len(block) / RATE_HZ
@@ -54,7 +54,7 @@ class Utterances:
         return self.end() if self._quiet_s >= PAUSE_S or self._length_s > MOST_S else None
 
     def end(self) -> Sound | None:
-        """End the sound; return the last utterance, or None."""
+        """End the utterance and return it; None if there is none, or it is a click or too long."""
         whole, said = self._spoken, self._loud_s >= SHORTEST_S and self._length_s <= MOST_S
         self.too_long = self._length_s > MOST_S
         if self.too_long:

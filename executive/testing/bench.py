@@ -137,7 +137,7 @@ def run_mission(
         search: `paper`: looks and questions do not depend on distances; `plan`: they do, as in
             missions by default.
         place: where things are, if not where the home file has them.
-        fault: why a goal of the robot fails; None if it does not.
+        fault: returns why a goal of the robot fails; None if it does not.
         mishaps: faults of the world, as given to `--fault`: `moved=mug:desk@1`.
         seed: seed of all random choices.
         during: called at the start of every goal of the robot; may post events.
@@ -168,8 +168,8 @@ def run_mission(
     world = body.truth
     assert isinstance(world, FakeWorld)
     world.fault = fault
-    goals = _noted(body.robot, lambda goal: during(goal, inbox))
-    user = person(inbox) if person else _who_answers(answers, inbox, world)
+    goals = _note_goals(body.robot, lambda goal: during(goal, inbox))
+    user = person(inbox) if person else _answering_person(answers, inbox, world)
     thinker = None
     if llm:
         thinker = model(inbox) if model else ScriptedModel(replies, inbox)
@@ -201,7 +201,7 @@ def run_mission(
     return Run(outcome, world, user, thinker, notebook, goals, inbox, situation)
 
 
-def _noted(robot: Robot, during: Callable[[Goal], None]) -> list[Goal]:
+def _note_goals(robot: Robot, during: Callable[[Goal], None]) -> list[Goal]:
     """The list of goals that the robot gets from now on; calls `during` after each start."""
     goals: list[Goal] = []
     start = robot.start
@@ -216,8 +216,8 @@ def _noted(robot: Robot, during: Callable[[Goal], None]) -> list[Goal]:
     return goals
 
 
-def _who_answers(answers: Iterable[str | None] | None, inbox: Inbox, world: FakeWorld) -> User:
-    """The person: scripted with these answers, or the oracle if there are none."""
+def _answering_person(answers: Iterable[str | None] | None, inbox: Inbox, world: FakeWorld) -> User:
+    """The person: scripted with these answers, or the oracle if None are given."""
     if answers is None:
         return Oracle(inbox, world.resting_place)
     return Scripted(inbox, answers)

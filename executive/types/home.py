@@ -5,7 +5,7 @@ from dataclasses import dataclass
 PERSON = "person"
 """Where the robot stands when it speaks with the person; not furniture."""
 DELIVERY = "delivery"
-"""The place near the person where brought things are put down; not furniture."""
+"""The place near the person where brought things are put down; not searched like furniture."""
 FLOOR = "floor"
 """The floor around the robot, wherever it stands: where to look for what fell from the hand."""
 HAND = "hand"

@@ -51,7 +51,7 @@ class RankRequest:
         neutral: the same chat without the thing; if empty, its term is 0.
         options: texts to score.
         places: the places that the options stand for, in the same order.
-        precedents: similar questions with known answers, for models that can compare questions.
+        precedents: questions with known answers, for models that can tell which are similar.
         kind: parent class of the thing; precedents of the same kind count as slightly more similar.
         place_kinds: class and room of each place, in the same order; empty if not known.
     """
@@ -68,9 +68,11 @@ class RankRequest:
 
 @dataclass(frozen=True, slots=True)
 class Usage:
-    """What one call cost: input tokens (evaluated or cached), output tokens, seconds.
+    """What one call cost, in tokens and in seconds.
 
-    `prepared_tokens` and `prepared_s` count the preparation between the previous call and this one.
+    Of the input tokens, `evaluated_tokens` were computed, and the others were cached.
+    `prepared_tokens` and `prepared_s` count the preparation between the previous call and this one;
+    they are not part of the other figures.
     """
 
     model: str = ""

@@ -18,7 +18,8 @@ class Failed:
     Attributes:
         reason: why, as a clause for the person: "the way is blocked".
         lost: whether the held thing fell from the hand on the way.
-        unreachable: whether the robot itself cannot be reached any more; this ends the mission.
+        unreachable: whether the robot itself cannot be reached any more; this ends the mission, and
+            nothing else is tried.
     """
 
     reason: str
@@ -46,7 +47,7 @@ class Replied:
 
 @dataclass(frozen=True, slots=True)
 class Scored:
-    """Log-likelihoods of the options, up to a common constant, in the request's order."""
+    """Logarithms of how likely the options are, up to a common constant, in the request's order."""
 
     request: RankRequest
     scores: tuple[float, ...]

@@ -15,13 +15,13 @@ Lines = list[list[str]]
 
 
 def name(condition: Condition) -> str:
-    """A condition as the head of a column."""
+    """The name of a condition in tables and plots."""
     system, defaults = condition
     return f"{system}, {situation(defaults)}"
 
 
 def situation(defaults: bool) -> str:
-    """Whether the ontology knows default locations."""
+    """The name of a situation: whether the ontology has default locations."""
     return "defaults" if defaults else "no defaults"
 
 
@@ -38,7 +38,7 @@ def mean_of(rows: Sequence[Row], column: Column) -> str:
 
 
 def mean_beside(rows: Sequence[Row], column: Column, theirs: float | None, digits: int = 2) -> str:
-    """Our mean, and the paper's in brackets; empty if neither is known."""
+    """Our mean ("-" without missions), and the paper's in brackets; empty if neither is known."""
     ours = f"{fmean(map(column, rows)):.{digits}f}" if rows else "" if theirs is None else "-"
     return ours + (f" ({theirs:.{digits}f})" if theirs is not None else "")
 
@@ -62,7 +62,10 @@ def p_value(comparison: Comparison[Any]) -> str:
 def each_variant(
     found: Sequence[Variant], heads: Sequence[str], lines: Callable[[Variant], Lines]
 ) -> Table:
-    """One table of all variants, with a column for their names if there are several."""
+    """One table of all variants, with a column for their names if there are several.
+
+    `lines` makes the rows of one variant.
+    """
     if len(found) == 1:
         return Table(heads, lines(found[0]))
     named = [[variant.name, *line] for variant in found for line in lines(variant)]

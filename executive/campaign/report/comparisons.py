@@ -15,7 +15,7 @@ from kb.benchmark.calibration import calibration
 
 
 def policies(found: Sequence[Variant]) -> Table:
-    """Compare every variant with the first of its home, for each condition with a model."""
+    """Compare every variant with the first of its home, in each condition with several variants."""
     columns = {title: column for title, (column, _) in MEASURES.items()}
     lines: Lines = []
     for condition in paper.CONDITIONS:
@@ -41,7 +41,7 @@ def policies(found: Sequence[Variant]) -> Table:
 
 
 def searching(found: Sequence[Variant]) -> Table:
-    """Duration of searches, and their cost with questions."""
+    """Duration of searches, and their cost including questions."""
     lines: Lines = []
     for condition in paper.CONDITIONS:
         mine = _by_variant(found, condition)
@@ -71,7 +71,7 @@ def cost_differences(found: Sequence[Variant]) -> Table:
     lines: Lines = []
     for condition in paper.CONDITIONS:
         mine = _by_variant(found, condition)
-        for test in _beside_first(mine, _cost_s):
+        for test in _tests_with_first(mine, _cost_s):
             theirs, ours = (by_command(mine[one], _cost_s) for one in (test.a, test.b))
             each = {str(unit): [ours[unit] - theirs[unit]] for unit in ours if unit in theirs}
             if difference := summarize(each):
@@ -91,13 +91,13 @@ def trust(found: Sequence[Variant]) -> Table:
         for variant in found:
             rows = [row for row in select(variant.own, condition) if row.sure]
             if rows:
-                was = calibration(map(_told, rows))
+                was = calibration(map(_prediction, rows))
                 lines.append(
                     [
                         name(condition),
                         variant.name,
                         mean_of(rows, lambda row: row.sure),
-                        mean_of(rows, _right),
+                        mean_of(rows, _correctness),
                         f"{was.error:.2f}",
                         f"{was.log_score:.2f}",
                         str(len(rows)),
@@ -107,30 +107,34 @@ def trust(found: Sequence[Variant]) -> Table:
     return Table(["condition", "variant", *heads, "n"], lines)
 
 
-def _right(row: Row) -> float:
+def _correctness(row: Row) -> float:
     """Expected correctness of the likeliest place; of equally likely ones, any may be first."""
     return (row.sure_of_it >= row.sure) / row.as_likely
 
 
-def _told(row: Row) -> tuple[dict[str, float], list[str]]:
-    """The likeliest places and the true one, which is right; of several as likely, each in part."""
-    if _right(row):
+def _prediction(row: Row) -> tuple[dict[str, float], list[str]]:
+    """The believed probabilities and the true places of a mission, for `calibration`.
+
+    If the true place is among the likeliest, all of these are taken for true, so that each counts
+    for a part.
+    """
+    if _correctness(row):
         alike = [f"place {number}" for number in range(row.as_likely)]
         return dict.fromkeys(alike, row.sure), alike
     return {"another": row.sure, "it": row.sure_of_it}, ["it"]
 
 
 def _by_variant(found: Sequence[Variant], condition: Condition) -> dict[str, list[Row]]:
-    """The missions of a condition, of each variant that has some."""
+    """The missions of a condition by variant; variants without any are left out."""
     return {variant.name: mine for variant in found if (mine := select(variant.own, condition))}
 
 
 def _against_first(rows: Mapping[str, Sequence[Row]], column: Column) -> dict[str, str]:
     """The stars for each variant's difference from the first of its home, paired by command."""
-    return {test.b: f" {stars(test.p)}".rstrip() for test in _beside_first(rows, column)}
+    return {test.b: f" {stars(test.p)}".rstrip() for test in _tests_with_first(rows, column)}
 
 
-def _beside_first(rows: Mapping[str, Sequence[Row]], column: Column) -> list[Comparison[str]]:
+def _tests_with_first(rows: Mapping[str, Sequence[Row]], column: Column) -> list[Comparison[str]]:
     """Comparisons of the first variant of each home with all others of that home."""
     columns = {variant: by_command(mine, column) for variant, mine in rows.items()}
     first: dict[str, str] = {}

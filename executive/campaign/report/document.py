@@ -92,10 +92,10 @@ def to_html(parts: Sequence[Part]) -> str:
 
 
 def write_document(parts: Sequence[Part], folder: Path) -> None:
-    """Write `report.md` with its pictures, and `report.html`, which holds them.
+    """Write `report.md` with picture files, and the self-contained `report.html`.
 
     Raises:
-        OSError: if they cannot be written; each file is whole or as it was.
+        OSError: if they cannot be written; each file is then complete, or unchanged.
     """
     for part in parts:
         if isinstance(part, Figure):

@@ -1,6 +1,7 @@
-"""What the paper tried and measured, as figures to compare ours with.
+"""The paper's conditions and results, for comparison with ours.
 
-Ordered as in its tables: systems from left to right, without and with default locations.
+They are in the order of its tables: the systems from left to right, first without default
+locations, then with them.
 """
 
 from executive.config import KnowledgeSystem
@@ -11,7 +12,7 @@ OKB, LLM, MEM = KnowledgeSystem
 SYSTEMS: tuple[KnowledgeSystem, ...] = (OKB, LLM, MEM)
 
 HOME = "four_rooms"
-"""Our home that is made after its own."""
+"""Our model of the paper's home."""
 
 COMMANDS = (
     "Find an apple.",
@@ -24,7 +25,7 @@ COMMANDS = (
     "Bring a mustard_bottle.",
     "Bring a sugar_box.",
 )
-"""The commands of its table; its text speaks of ten."""
+"""The commands in the paper's table: nine, although its text says ten."""
 
 Condition = tuple[KnowledgeSystem, bool]
 """A system, and whether the ontology knows default locations."""
@@ -32,7 +33,7 @@ Condition = tuple[KnowledgeSystem, bool]
 CONDITIONS: tuple[Condition, ...] = tuple((s, d) for d in (False, True) for s in SYSTEMS)
 
 COMPLETION = {OKB: 0.98, LLM: 0.80, MEM: 0.97}
-"""Task completion rate, both situations together."""
+"""Task completion rate, with and without default locations together."""
 
 TIME_S: dict[CommandKind, dict[Condition, float]] = {
     kind: dict(zip(CONDITIONS, times, strict=True))
@@ -42,7 +43,7 @@ TIME_S: dict[CommandKind, dict[Condition, float]] = {
         CommandKind.BRING: (224.7, 301.7, 304.4, 225.1, 415.7, 258.0),
     }.items()
 }
-"""Average task completion time of the missions that succeeded (s)."""
+"""Mean completion time (s) of the missions that succeeded."""
 
 INQUIRIES: dict[Condition, tuple[float, float]] = {
     (OKB, False): (1.0, 0.0),
@@ -52,7 +53,7 @@ INQUIRIES: dict[Condition, tuple[float, float]] = {
     (LLM, True): (0.14, 0.35),
     (MEM, True): (0.08, 0.27),
 }
-"""Questions to the person, mean and SD; recognition and action always succeed."""
+"""Number of questions to the person, mean and SD, if recognition and action always succeed."""
 
 VISITS: dict[Condition, tuple[float, float]] = {
     (OKB, False): (1.0, 0.0),
@@ -62,7 +63,7 @@ VISITS: dict[Condition, tuple[float, float]] = {
     (LLM, True): (2.45, 1.84),
     (MEM, True): (1.96, 1.45),
 }
-"""Pieces of furniture visited, mean and SD; recognition and action always succeed."""
+"""Number of visited pieces of furniture, mean and SD, if recognition and action always succeed."""
 
 COST: dict[str, dict[Condition, float]] = {
     name: dict(zip(((LLM, False), (MEM, False), (LLM, True), (MEM, True)), values, strict=True))
@@ -73,4 +74,4 @@ COST: dict[str, dict[Condition, float]] = {
         "generated tokens": (201.2, 246.4, 198.8, 223.4),
     }.items()
 }
-"""Execution cost: averages of a mission, the last two of one call."""
+"""Execution cost: means per mission; the last two per call of the model."""

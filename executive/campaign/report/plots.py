@@ -1,7 +1,7 @@
-"""The plots of a report, as SVG: for print in grey, and for those who do not tell colours apart.
+"""The plots of a report, as SVG, readable in grey and by people with colour blindness.
 
-Colours are those of Okabe and Ito, "Color Universal Design", 2008; each goes with a hatch or a
-marker of its own.
+The colours are from Okabe and Ito, "Color Universal Design", 2008; each has its own hatch or
+marker.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -35,9 +35,9 @@ OF_ACTIVITY = dict(
         strict=True,
     )
 )
-"""Colour and hatch."""
+"""Colour and hatch of each activity."""
 OF_SITUATION = {False: (VERMILION, "o"), True: (BLUE, "s")}
-"""Colour and marker."""
+"""Colour and marker without default locations (False) and with them (True)."""
 STYLE: Any = {
     "font.family": "DejaVu Sans",
     "font.size": 9,
@@ -52,7 +52,7 @@ FULL_BOX = "Boxes: quartiles; line: median; diamond: mean; whiskers: all mission
 
 
 def figures(found: Sequence[Variant]) -> Iterator[tuple[str, Sequence[Figure]]]:
-    """All figures by section; those of the paper's conditions show the first variant."""
+    """All sections with their figures; all but the section `policies` show the first variant."""
     rows = found[0].rows
     whose = f" ({found[0].name})" if found[0].name else ""
     diamonds = "Diamonds: the paper. " if found[0].as_in_paper else ""
@@ -83,7 +83,7 @@ def figures(found: Sequence[Variant]) -> Iterator[tuple[str, Sequence[Figure]]]:
 def drawn(
     file: str, caption: str, size: tuple[float, float], draw: Callable[[Drawing], None]
 ) -> Figure:
-    """Draw on a sheet of this size (inches)."""
+    """Let `draw` draw on a sheet of this size (width and height in inches)."""
     out = StringIO()
     with mpl.rc_context(STYLE):
         drawing = Drawing(figsize=size, layout="constrained")
@@ -113,7 +113,7 @@ def _means(drawing: Drawing, rows: Sequence[Row], title: str, beside_paper: bool
 
 
 def _reach(summary: Summary) -> list[list[float]]:
-    """How far the interval goes below and above the mean."""
+    """Distances of the interval's ends below and above the mean, as error bars need them."""
     return [[max(0.0, summary.mean - summary.low)], [max(0.0, summary.high - summary.mean)]]
 
 
@@ -124,7 +124,10 @@ def _brackets(
     defaults: bool,
     tops: Mapping[KnowledgeSystem, float],
 ) -> None:
-    """Join the systems that differ, with the stars of their difference."""
+    """Draw brackets with stars between the systems that differ significantly, above the bars.
+
+    `tops` are the heights of the bars with their error bars.
+    """
     step = max([*tops.values(), 1.0]) * 0.12
     height = max([*tops.values(), 0.0]) + step * 0.6
     for test in system_tests(rows, MEASURES[title][0], defaults)[0]:
@@ -140,7 +143,10 @@ Panel = Callable[[Axes, Sequence[Row], str, bool], None]
 
 
 def _panels(drawing: Drawing, rows: Sequence[Row], panel: Panel) -> None:
-    """Inquiries above, visits below; without defaults left, with them right; one legend."""
+    """Draw four panels and one legend.
+
+    Inquiries are above, visits below; without default locations left, with them right.
+    """
     grid = drawing.subplots(2, 2, sharey="row", sharex="row")
     for line, title in zip(grid, MEASURES, strict=True):
         for axes, defaults in zip(line, (False, True), strict=True):
@@ -204,7 +210,7 @@ def _time(drawing: Drawing, rows: Sequence[Row]) -> None:
 
 
 def _policies(drawing: Drawing, found: Sequence[Variant]) -> None:
-    """The last system of each variant that is not okb: the one with a memory, if it was run."""
+    """Compare the variants, each by its last system but okb: the one with a memory, if it ran."""
     panels = drawing.subplots(1, 2, sharey=True)
     for axes, title in zip(panels, MEASURES, strict=True):
         for y, variant in enumerate(found):

@@ -62,13 +62,13 @@ HEADINGS = {"inquiries": "Inquiries to the person", "visits": "Pieces of furnitu
 """Headings of the measures."""
 
 Plots = Mapping[str, Sequence[Part]]
-"""The figures, by the section that they belong to."""
+"""The figures of each section, by its name."""
 
 
 def write_report(
     rows: Sequence[Row], about: Mapping[str, str], folder: Path, as_in_paper: Collection[str]
 ) -> None:
-    """Write `report.md` with its plots, and `report.html`, which holds them."""
+    """Write `report.md` with picture files, and the self-contained `report.html`; see `report`."""
     write_document(report(rows, about, folder, as_in_paper), folder)
 
 
@@ -78,16 +78,17 @@ def report(
     folder: Path = Path(),
     as_in_paper: Collection[str] = (paper.HOME,),
 ) -> list[Part]:
-    """The whole report; crashed missions count as not completed and nowhere else.
+    """All parts of the report.
 
-    Missions whose language model was of no help are counted, and count for nothing.
+    A crashed mission counts as not completed; all other figures leave it out. Missions whose
+    language model did not work are left out of all figures; a sentence says how many they are.
 
     Args:
-        rows: missions that have ended, of any part of the campaign.
-        about: settings, versions and the like, to be listed at the end.
-        folder: where it will be; links to recordings are relative to it.
-        as_in_paper: homes in which the paper's commands were given, as the paper did it: only
-            there its figures stand beside ours.
+        rows: the missions that have ended; the campaign need not be complete.
+        about: settings, versions and other facts, for the table at the end.
+        folder: the folder of the report; links to recordings are relative to it.
+        as_in_paper: the homes with the paper's conditions and commands; only their tables have the
+            paper's figures, too.
     """
     without_model = [row for row in rows if row.model_failure]
     rows = [row for row in rows if not row.model_failure]
@@ -113,7 +114,10 @@ def report(
 
 
 def _measured(found: Sequence[Variant], all_found: Sequence[Variant], plots: Plots) -> list[Part]:
-    """What the paper measured: completion, time, inquiries and visits; `all_found` has crashes."""
+    """The sections on what the paper measured: completion, time, inquiries and visits.
+
+    `all_found` includes the crashed missions, `found` does not.
+    """
     parts: list[Part] = [Heading("Overview"), tables.overview(found)]
     parts += [Heading("Task completion rate"), tables.completion(all_found)]
     parts += [Heading("Mission time of completed missions [s]"), tables.times(found)]
@@ -126,7 +130,10 @@ def _measured(found: Sequence[Variant], all_found: Sequence[Variant], plots: Plo
 
 
 def _searched(found: Sequence[Variant], ran: Sequence[Row]) -> list[Part]:
-    """What the search cost, and whether its belief was right; results of earlier days lack both."""
+    """The sections on the cost of searches and on the calibration of beliefs.
+
+    Each is left out if no mission has such figures: earlier results have none.
+    """
     parts: list[Part] = []
     if any(row.search_s for row in ran):
         parts += [Heading("What the search cost"), Text(SEARCHING), comparisons.searching(found)]
@@ -150,7 +157,7 @@ def not_counted(rows: Sequence[Row]) -> str:
 
 
 def _plots(found: Sequence[Variant]) -> Iterator[tuple[str, Sequence[Part]]]:
-    """The figures by the section that they belong to; none without matplotlib."""
+    """Sections with their figures; none without matplotlib."""
     try:
         from executive.campaign.report import plots
     except ImportError:

@@ -1,7 +1,7 @@
 """Means, intervals and tests for the tables of an experiment.
 
-The commands are what an experiment samples; its seeds only repeat them, and a system that does not
-depend on chance repeats them exactly. So intervals and tests rest on the mean of each command.
+The commands are the sample of an experiment. Seeds only repeat a command, and a system without
+randomness repeats it exactly. So intervals and tests are computed over commands, not over missions.
 """
 
 from collections.abc import Hashable, Iterable, Mapping, Sequence
@@ -70,11 +70,13 @@ def pairwise(columns: Mapping[Name, Mapping[Hashable, float]]) -> list[Compariso
 def compare(
     columns: Mapping[Name, Mapping[Hashable, float]], pairs: Iterable[tuple[Name, Name]]
 ) -> list[Comparison[Name]]:
-    """Wilcoxon's signed-rank test of pairs of conditions on what the two have in common.
+    """Compare pairs of conditions by Wilcoxon's signed-rank test, with Holm's correction over all.
+
+    Only units that both conditions have are compared.
 
     Args:
-        columns: of each condition the value of each unit (a command, or a mission).
-        pairs: which to compare; those with nothing in common are left out.
+        columns: for each condition, the value of each unit (a command, or a mission).
+        pairs: the pairs to compare; those without common units are left out.
     """
     found: list[Comparison[Name]] = []
     for a, b in pairs:
@@ -93,7 +95,10 @@ EXACT_UP_TO = 12
 def signed_rank(
     differences: Sequence[float] | NDArray[np.float64],
 ) -> float:
-    """Two-sided p of Wilcoxon's signed-rank test; pairs without a difference are left out."""
+    """Two-sided p of Wilcoxon's signed-rank test; 1 for fewer than two pairs with a difference.
+
+    Pairs without a difference are left out.
+    """
     d = np.asarray(differences, float)
     d = d[np.abs(d) > 1e-12]
     if d.size < 2:
@@ -107,13 +112,13 @@ def signed_rank(
 
 
 def _ranks_of_positive(d: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
-    """Wilcoxon's statistic along an axis."""
+    """Wilcoxon's statistic along an axis: the sum of the ranks of positive differences."""
     ranks: NDArray[np.float64] = stats.rankdata(np.abs(d), axis=axis)
     return np.asarray(np.where(d > 0, ranks, 0.0).sum(axis=axis), float)
 
 
 def holm(ps: Sequence[float]) -> list[float]:
-    """Holm's step-down correction for multiple comparisons, in the order given."""
+    """The p values after Holm's step-down correction for multiple comparisons, in their order."""
     corrected, least = [0.0] * len(ps), 0.0
     for rank, index in enumerate(np.argsort(ps, kind="stable")):
         least = max(least, min(1.0, (len(ps) - rank) * ps[index]))
@@ -127,7 +132,7 @@ def stars(p: float) -> str:
 
 
 def grouped(pairs: Iterable[tuple[str, float]]) -> dict[str, list[float]]:
-    """Values by command."""
+    """The values of each name, in order."""
     groups: dict[str, list[float]] = {}
     for name, value in pairs:
         groups.setdefault(name, []).append(value)

@@ -1,4 +1,4 @@
-"""The tables of a report: the paper's with ours beside its figures, and those that it lacks."""
+"""The tables of a report: the paper's, with our figures and its own, and further ones."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from os.path import relpath
@@ -39,7 +39,7 @@ MEASURES: Mapping[str, tuple[Column, dict[Condition, tuple[float, float]]]] = {
     "inquiries": (lambda row: row.inquiries, paper.INQUIRIES),
     "visits": (lambda row: row.visits, paper.VISITS),
 }
-"""What the paper reports by mean and SD, with stars."""
+"""The measures that the paper reports by mean and SD: our column, and the paper's figures."""
 
 COST: Mapping[str, Callable[[Sequence[Row]], float]] = {
     "list generation [s]": lambda rows: fmean(r.thinking_time_s for r in rows),
@@ -57,7 +57,7 @@ ACTIVITIES: Mapping[str, Column] = {
     "handling": lambda row: row.handling_s,
     "other": lambda row: max(0.0, row.mission_time_s - sum(_known_s(row))),
 }
-"""What a mission's time (s) goes into."""
+"""Mission time (s) by activity; `other` is the rest of it."""
 
 
 def _only_thinking_s(row: Row) -> float:
@@ -69,7 +69,7 @@ def _known_s(row: Row) -> tuple[float, ...]:
 
 
 def overview(found: Sequence[Variant]) -> Table:
-    """What matters most, at a glance."""
+    """The most important means, one column per system."""
 
     def lines(variant: Variant) -> Lines:
         table = []
@@ -101,7 +101,7 @@ def overview(found: Sequence[Variant]) -> Table:
 
 
 def completion(found: Sequence[Variant]) -> Table:
-    """How many missions were done by the simulator's truth, and by what the robot said; SPL."""
+    """Completion by the ground truth and by what the robot said, and SPL, for each system."""
 
     def lines(variant: Variant) -> Lines:
         table = []
@@ -130,7 +130,7 @@ def completion(found: Sequence[Variant]) -> Table:
 
 
 def times(found: Sequence[Variant]) -> Table:
-    """Mission time of completed missions, by kind and condition."""
+    """Mean mission time (s) of completed missions, by kind of command and condition."""
 
     def lines(variant: Variant) -> Lines:
         done = [row for row in variant.rows if row.completed]
@@ -154,7 +154,7 @@ def times(found: Sequence[Variant]) -> Table:
 
 
 def time_split(found: Sequence[Variant]) -> Table:
-    """What the time of a mission went into, by condition, and how much longer thinking made it."""
+    """Mean mission time by activity and condition, and the factor by which thinking prolongs it."""
 
     def lines(variant: Variant) -> Lines:
         return [
@@ -172,14 +172,14 @@ def time_split(found: Sequence[Variant]) -> Table:
 
 
 def _lengthened(rows: Sequence[Row]) -> str:
-    """By which factor the missions are longer than if nothing had waited for the model."""
+    """The factor by which missions are longer than without waiting for the model; "-": unknown."""
     whole_s = sum(row.mission_time_s for row in rows)
     without_s = whole_s - sum(map(_only_thinking_s, rows))
     return f"{whole_s / without_s:.3f}" if without_s > 0 else "-"
 
 
 def measure(found: Sequence[Variant], title: str) -> Table:
-    """Mean, interval and SD of each condition."""
+    """Mean, interval and SD of one of `MEASURES`, for each condition."""
     column, figures = MEASURES[title]
 
     def lines(variant: Variant) -> Lines:
@@ -201,7 +201,7 @@ def measure(found: Sequence[Variant], title: str) -> Table:
 
 
 def differences(found: Sequence[Variant], title: str) -> Table:
-    """Wilcoxon's signed-rank test of each two systems, in each situation."""
+    """Wilcoxon's signed-rank test of one of `MEASURES`, for all pairs of systems."""
     column, _ = MEASURES[title]
 
     def lines(variant: Variant) -> Lines:
@@ -229,9 +229,9 @@ Tests = list[Comparison[KnowledgeSystem]]
 
 
 def system_tests(rows: Iterable[Row], column: Column, defaults: bool) -> tuple[Tests, Tests]:
-    """Each two systems compared in a situation: by command, and by mission.
+    """All pairs of systems compared in a situation: by command, and by mission.
 
-    Two with the same commands, but none with the same seed, are compared only by command.
+    Two systems without a common seed are compared only by command.
     """
     mine = {
         system: one
@@ -245,7 +245,7 @@ def system_tests(rows: Iterable[Row], column: Column, defaults: bool) -> tuple[T
 
 
 def cost(found: Sequence[Variant]) -> Table:
-    """What consulting the language model cost, of missions that did."""
+    """Cost of consulting the language model, for the missions that did; empty if none did."""
 
     def lines(variant: Variant) -> Lines:
         consulted = asked(variant.own)
@@ -265,7 +265,7 @@ def cost(found: Sequence[Variant]) -> Table:
 
 
 def failures(rows: Iterable[Row], folder: Path) -> Table:
-    """Why missions were not completed, commonest first, with their recordings."""
+    """The reasons why missions were not completed, the most frequent first, with recordings."""
     causes: dict[tuple[str, str, str, str], list[Row]] = {}
     for row in rows:
         if not row.completed:
@@ -283,7 +283,7 @@ def failures(rows: Iterable[Row], folder: Path) -> Table:
 
 
 def asked(rows: Iterable[Row]) -> list[Row]:
-    """The missions in which a language model was asked."""
+    """The missions in which a language model was asked, not a stand-in."""
     return [row for row in rows if row.llm_calls and row.llm != "none"]
 
 

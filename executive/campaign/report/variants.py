@@ -1,4 +1,4 @@
-"""The missions of a campaign, apart by policy, home and model, and by what they measure."""
+"""Groups the missions of a campaign: by policy, home and model, by condition, and by command."""
 
 from collections.abc import Callable, Collection, Hashable, Iterable, Sequence
 from dataclasses import dataclass
@@ -16,12 +16,12 @@ Column = Callable[[Row], float]
 
 @dataclass(frozen=True, slots=True)
 class Variant:
-    """What one policy did in one home with one model.
+    """The missions of one policy in one home with one model.
 
     Attributes:
-        name: what it is called: in what it differs from the others; empty if it is the only one.
+        name: those of policy, home and model that vary in the campaign; empty if none does.
         rows: its missions, and those of okb in the same home.
-        own: the same, less those of okb if an earlier variant has them.
+        own: the same, but without those of okb if an earlier variant of this home has them.
         as_in_paper: whether home and commands are those of the paper.
     """
 
@@ -32,7 +32,14 @@ class Variant:
 
 
 def variants(rows: Sequence[Row], as_in_paper: Collection[str]) -> list[Variant]:
-    """In the order of the rows; okb, which asks no model, belongs to every variant of its home."""
+    """The variants among these missions, in the order of the rows.
+
+    The system okb asks no model, so its missions belong to every variant of their home.
+
+    Args:
+        rows: the missions of a campaign.
+        as_in_paper: the homes with the paper's conditions and commands.
+    """
     asking = [row for row in rows if row.key.system != OKB] or rows
     which = list(dict.fromkeys((row.policy, row.home, row.llm) for row in asking))
     differs = [len({one[part] for one in which} - {"none"}) > 1 for part in range(3)]
@@ -53,7 +60,7 @@ def _of_okb(rows: Iterable[Row], home: str) -> list[Row]:
 
 
 def select(rows: Iterable[Row], condition: Condition, kind: CommandKind | None = None) -> list[Row]:
-    """The missions of a system in a situation, of one kind or all."""
+    """The missions of a condition, of one kind of command or (None) of all."""
     return [
         row
         for row in rows
@@ -62,17 +69,17 @@ def select(rows: Iterable[Row], condition: Condition, kind: CommandKind | None =
 
 
 def summary_of(rows: Iterable[Row], column: Column) -> Summary | None:
-    """The column's summary, with its interval over the commands."""
+    """The column's summary, with the interval over the commands; None without missions."""
     return summarize(grouped((row.command, column(row)) for row in rows))
 
 
 def by_command(rows: Iterable[Row], column: Column) -> dict[Hashable, float]:
-    """Of each command the mean over its missions."""
+    """For each command, the mean over its missions."""
     return _by(rows, column, lambda row: row.command)
 
 
 def by_mission(rows: Iterable[Row], column: Column) -> dict[Hashable, float]:
-    """Of each command with each seed its value."""
+    """For each command and seed, the value of its mission."""
     return _by(rows, column, lambda row: (row.command, row.seed))
 
 

@@ -38,7 +38,7 @@ WAKING = (7.0, 22.0)
 """The hours of the day between which commands are given."""
 MOST_LOOKED_BACK = 10_000
 SURE = 0.5
-"""A place below this probability does not count as believed."""
+"""A place below this probability does not count as believed: the robot looks there in passing."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,7 +121,7 @@ class _Watch:
 
     observed: Observed = field(default_factory=Observed)
     named: dict[str, tuple[str, bool]] = field(default_factory=dict)
-    """For each place, its source, and whether its probability was at least `SURE`."""
+    """For each place, its source, and whether its probability was at least `SURE` or not given."""
 
     def begin(self) -> None:
         """Begin a mission."""

@@ -32,7 +32,7 @@ class Lived:
     day: int
     """From 0."""
     turn: int
-    """Index of the command in its day."""
+    """Index of the command in its day, from 0."""
     hour: float
     """Hour of the day at which the command was given."""
     command: str
@@ -117,7 +117,10 @@ class Diary(LineFile):
         self.write(line.to_json())
 
     def entries(self) -> list[Line]:
-        """One line for each command, the last if there are several; without damaged ones."""
+        """One line for each command, the last if there are several; damaged ones are left out.
+
+        They are sorted by household, day and turn.
+        """
         found = {}
         for text in self.lines():
             if isinstance(line := read_line(text), Line):

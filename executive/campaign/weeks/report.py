@@ -1,4 +1,4 @@
-"""The report of weeks: questions, visits and stale beliefs by week and policy, and how they end."""
+"""The report of a campaign of weeks: the measures by week and policy, and in the second half."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -22,7 +22,7 @@ MEASURES: Mapping[str, tuple[str, Callable[[Lived], float]]] = {
     "misguided": ("wrong guesses by habit, % of commands", lambda one: 100.0 * one.misguided),
     "cost": ("cost of the search a command [s]", lambda one: one.cost_s),
 }
-"""The measures by week: name, and value of a command."""
+"""The measures: for each, its title in the report, and its value of one command."""
 SHOWN = ("questions", "visits", "stale", "cost")
 """The measures that are plotted."""
 READING = (
@@ -58,7 +58,7 @@ def report(lived: Sequence[Lived], about: Mapping[str, str]) -> list[Part]:
 
 
 def by_variant(lived: Sequence[Lived]) -> Iterator[tuple[str, Iterator[Lived]]]:
-    """The rows of each policy, home and model, with a distinguishing name."""
+    """The rows of each policy, home and model, with its name; home and model only if they vary."""
     homes, models = ({getattr(one, key) for one in lived} for key in ("home", "llm"))
     order = dict.fromkeys((one.policy, one.home, one.llm) for one in lived)
     for policy, home, llm in order:
@@ -70,13 +70,13 @@ def by_variant(lived: Sequence[Lived]) -> Iterator[tuple[str, Iterator[Lived]]]:
 
 
 def summary(rows: Sequence[Lived], measure: str) -> Summary | None:
-    """Mean and interval of some commands; None if there are none."""
+    """Mean and interval (over the days) of a measure of some commands; None if there are none."""
     value = MEASURES[measure][1]
     return summarize(grouped((f"{one.seed} {one.day}", value(one)) for one in rows))
 
 
 def weeks_of(rows: Sequence[Lived]) -> list[list[Lived]]:
-    """The commands week by week."""
+    """The commands of each week, from the first to the last with any."""
     last = max((one.week for one in rows), default=-1)
     return [[one for one in rows if one.week == week] for week in range(last + 1)]
 
@@ -110,7 +110,7 @@ def _with_interval(one: Summary | None) -> str:
 
 
 def _plots(found: Mapping[str, Sequence[Lived]]) -> list[Figure]:
-    """One figure; none without matplotlib."""
+    """A list of the one figure; empty without matplotlib or rows."""
     try:
         from executive.campaign.weeks.plots import figure
     except ImportError:

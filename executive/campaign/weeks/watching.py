@@ -54,7 +54,9 @@ class Weeks:
         self._folder = Folder(self._out, settings[0], (ASKED,), self._diary)
 
     def run(self) -> int:
-        """Run the remaining commands; the report is written however the run ends.
+        """Run the remaining commands; return the exit status.
+
+        The report is written however the run ends.
 
         Raises:
             ExecutiveError: if missions cannot be run, or journal or report cannot be written.
@@ -92,7 +94,7 @@ class Weeks:
 
 
 def refuse_what_does_not_fit(options: argparse.Namespace) -> None:
-    """Refuse options that only apply to a grid of missions.
+    """Refuse options that only apply to a grid of missions, and too many weeks.
 
     Raises:
         InputError: names the option.

@@ -24,12 +24,15 @@ MOVING_S = 0.4
 TELLING, TELLING_S = 0.15, 0.5
 """The tolerance of estimated durations of drives: this share, plus this many seconds."""
 REST_S = 0.6
-"""After this time (s), half a second and a margin, a halted robot is at rest."""
+"""After this time (s), half a second and a margin, a robot is at rest after a halt or a cancel."""
 
 
 @dataclass
 class Bench:
-    """A robot, its inbox, and a function that advances time by at most these seconds."""
+    """A robot, its inbox, and a function that advances time.
+
+    `advance` takes how many seconds to advance at most, and returns how many have passed.
+    """
 
     robot: Robot
     inbox: Inbox
@@ -42,7 +45,7 @@ class Bench:
     """Returns the parts of the robot that are moving, if that can be measured."""
 
     def end_of(self, request: int) -> Result:
-        """Advance time until this request ends; return its result."""
+        """Advance time until this request ends; return its result. Other events are dropped."""
         return self.timed_end_of(request)[0]
 
     def timed_end_of(self, request: int) -> tuple[Result, float]:
@@ -56,7 +59,7 @@ class Bench:
         raise AssertionError(f"no end within {PATIENCE_S} s")
 
     def wait(self, seconds: float) -> None:
-        """Advance time."""
+        """Advance time by at least these seconds."""
         passed = 0.0
         while passed < seconds:
             passed += self.advance(seconds - passed) or 0.01

@@ -24,7 +24,7 @@ QUESTIONS = (
 ODD = ("", "\x1b[2J\r\n", "\udcff \N{SNOWMAN}", "word " * 5000)
 
 
-def _by_themselves(words: str) -> None:
+def _own_choice(words: str) -> None:
     """Do nothing: the user chooses the answer."""
 
 
@@ -41,13 +41,13 @@ class UserBench:
 
     user: User
     inbox: Inbox
-    will_say: Callable[[str], None] = _by_themselves
-    says: Callable[[str], None] = _by_themselves
+    will_say: Callable[[str], None] = _own_choice
+    says: Callable[[str], None] = _own_choice
 
     @property
     def repeats(self) -> bool:
-        """Whether the answer can be chosen."""
-        return self.will_say is not _by_themselves or self.says is not _by_themselves
+        """Whether the test can choose the answer: the user follows a script, or a person."""
+        return self.will_say is not _own_choice or self.says is not _own_choice
 
     def ask(self, question: Question, answer: str = "on the desk") -> Event | None:
         """Ask a question, give this answer, and wait for the event."""
