@@ -50,7 +50,7 @@ class Moves:
 
     Attributes:
         taken: (things, SLOTS, n, n) number of moves from one place to another in each slot; the
-            last place stands for all those where the thing was never seen.
+            last place stands for all that are not among the places of the thing.
         spent: (things, SLOTS, n) hours at each place.
     """
 
@@ -151,7 +151,8 @@ class Between:
     def _forward(self, leaving: Floats, to: Floats) -> tuple[list[Floats], list[Floats]]:
         """For each step: probabilities of the places before it, and likelihoods after it.
 
-        The likelihoods are scaled, so that the products with the probabilities sum to 1.
+        The likelihoods are scaled, so that their products with the probabilities after the step
+        sum to 1.
         """
         likely = np.zeros((len(self.thing), self.size))
         likely[np.arange(len(likely)), self.start] = 1.0
@@ -191,7 +192,7 @@ def _steps(
 ) -> tuple[Floats, NDArray[np.intp], NDArray[np.intp]]:
     """Durations of the steps (h), their slots, and where the thing was absent at the end, or -1.
 
-    A step ends at the full hour, or when the thing was looked for.
+    A step ends at the full hour, or when the thing was not seen at one of its places.
     """
     since, until = max(one.since_s, one.until_s - LONGEST_S) / HOUR_S, one.until_s / HOUR_S
     missed = [(time_s / HOUR_S, places[place]) for time_s, place in one.absences if place in places]

@@ -19,7 +19,8 @@ from kb.rates import Rates, learned
 from kb.sightings import Known, Sightings
 
 MOST_LEARNED = 5_000
-"""Only so many of the latest facts are used (about 11 weeks of 10 commands a day); takes 1 s."""
+"""Of the facts that are new, only so many of the latest are learned from: it takes about a second,
+and they are some eleven weeks of ten commands a day."""
 MOST_TRUSTED = 0.98
 """Maximum trust in a source: the thing may always be elsewhere."""
 SAID_TRUST = 0.95
@@ -58,7 +59,10 @@ class Experience:
         self._learned_of = self._count
 
     def recalled(self, name: str) -> tuple[Statement, ...]:
-        """What memory and habits say about where a thing is now; empty if it was never seen."""
+        """What memory and habits say about where a thing is now.
+
+        Empty if its place was never known: by sight, by the robot's own deeds, or from the person.
+        """
         self._catch_up()
         followed = self._followed(name)
         if followed is None:
@@ -77,12 +81,12 @@ class Experience:
     # --- for explanations ---
 
     def things(self) -> tuple[str, ...]:
-        """All things that were ever seen."""
+        """All things whose place was ever known, in alphabetical order."""
         self._catch_up()
         return tuple(sorted(self._seen.known))
 
     def belief(self, name: str) -> Belief:
-        """Where the thing may be now, from sightings alone."""
+        """Where the thing may be now, from memory and habits alone."""
         return believe(self.recalled(name), ())
 
     def rates(self) -> Rates:
@@ -123,7 +127,7 @@ class Experience:
 
 
 def _share(last: Known) -> float:
-    """Probability that the thing was at its last known place at that time."""
+    """Probability that the thing was still at its last known place right after that time."""
     return 0.0 if last.taken else SAID_TRUST if last.said else 1.0
 
 
@@ -153,7 +157,10 @@ class _Chain:
         self.at_s = 0.0
 
     def begin(self, share: float, others: Mapping[str, float]) -> None:
-        """Start at the first place with this probability, or at one of the others by weight."""
+        """Start: `share` is split among the first place (weight 1) and the others by their weights.
+
+        The rest is the probability of any other place.
+        """
         total = 1 + sum(others.values())
         for place, weight in others.items():
             self._moved[self._number[place]] += share * weight / total
@@ -187,6 +194,6 @@ class _Chain:
         self._moved, self.stayed = self._moved / total, self.stayed / total
 
     def moved(self) -> dict[str, float]:
-        """For each place, the probability that the thing was taken there."""
+        """For each place, the probability that the thing was taken there; without places of 0."""
         named = zip(self._places, self._moved[:-1].tolist(), strict=True)
         return {place: share for place, share in named if share > 0}

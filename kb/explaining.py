@@ -33,7 +33,7 @@ def habits(experience: Experience) -> Iterator[str]:
 
 
 def worth(rate: Floats) -> str:
-    """The half-life of a sighting."""
+    """The half-life of a sighting, as text: until the thing is as likely moved as not."""
     hours = math.log(2) / float(rate.mean())
     return f"{hours / HOURS:.1f} days" if hours >= 2 * HOURS else f"{hours:.0f} hours"
 

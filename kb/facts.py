@@ -22,11 +22,14 @@ from kb.facts_file import opened
 log = logging.getLogger(__name__)
 
 MOST_BELIEFS, MOST_PLACES, MOST_NAME = 10_000, 100, 200
-"""Limits: objects with a believed place, places of one object, characters of a name."""
+"""Limits: objects with a belief, places of one object, characters of a name."""
 EVERYTHING = "everything"
 """The object of a fact of kind LOOKED."""
 SAID_THERE, DENIED_THERE = 0, -1
-"""Values of the column `seen` of a belief that comes from the person; any other: it was seen."""
+"""Values of the column `seen` of a belief that comes from the person: the thing is there, or not.
+
+Any other value: it was seen or put there.
+"""
 MOST_LOOKED_BACK = 20_000
 """`origins` reads only this many of the latest facts: that takes some milliseconds."""
 
@@ -100,7 +103,7 @@ class FactStore:
         *,
         learns: bool = True,
     ) -> Self:
-        """A store in memory that believes what another one did; for replays."""
+        """A store in memory, as long as the process, that believes what another one did."""
         store = cls()
         kinds = (FactKind.TAKEN, FactKind.SAID, FactKind.DENIED)
         for kind, known in zip(kinds, (origins, beliefs, denials), strict=True):
@@ -198,7 +201,7 @@ class FactStore:
     def since(self, number: int, most: int) -> tuple[tuple[Fact, ...], int]:
         """The facts after number `number`, at most the latest `most`; and the last one's number.
 
-        No facts if they cannot be read.
+        If there are none, or they cannot be read, the number is the given one.
         """
         query = (
             "SELECT kind, object, place, time_s, number FROM "

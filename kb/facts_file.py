@@ -1,4 +1,7 @@
-"""The SQLite file of facts: it is created here, by several processes if need be, or refused."""
+"""Opens the SQLite file of facts: creates it if need be, and refuses a file that is not ours.
+
+Several processes may do so at once.
+"""
 
 import os
 import sqlite3
@@ -12,7 +15,7 @@ from executive.text import printable
 APPLICATION_ID = 0x0FAC7501
 """Marks an SQLite file as ours (https://sqlite.org/fileformat.html, "Application ID")."""
 BUSY_S = 0.25
-"""How long to wait for another process that is writing; short, because a stop waits, too."""
+"""How long to wait for another process that is writing (s); short, because a stop waits, too."""
 OPENING_S = 10.0
 """The same while the file is opened: another process may be creating it."""
 MOST_CHECKED = 16 * 1024 * 1024
@@ -20,7 +23,7 @@ MOST_CHECKED = 16 * 1024 * 1024
 _BESIDE = ("-journal", "-wal", "-shm")
 """Endings of the files that SQLite opens beside it."""
 MOST_BYTES = 1_000_000
-"""The largest row."""
+"""The largest text or row that SQLite reads."""
 
 _SCHEMA = (
     """CREATE TABLE fact (
@@ -113,15 +116,15 @@ def _prepare(database: sqlite3.Connection) -> None:
                     database.execute(statement)
         with suppress(sqlite3.OperationalError):  # another process is doing it
             database.execute("PRAGMA journal_mode = WAL")
-    if _mark(database) != APPLICATION_ID or _definitions(database) != _ours():
+    if _application_id(database) != APPLICATION_ID or _definitions(database) != _ours():
         raise sqlite3.DatabaseError("it is a database of something else")
 
 
 def _is_empty(database: sqlite3.Connection) -> bool:
-    return not _mark(database) and not _definitions(database)
+    return not _application_id(database) and not _definitions(database)
 
 
-def _mark(database: sqlite3.Connection) -> int:
+def _application_id(database: sqlite3.Connection) -> int:
     [[mark]] = database.execute("PRAGMA application_id")
     return int(mark)
 

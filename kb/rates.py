@@ -47,8 +47,8 @@ class Rates:
         of_all: (24,) of things in general, by hour of the day.
         of_class: (24,) of each class of things.
         places: for each thing, its places and their indices.
-        to: (SLOTS, n, n) for each thing, from each place to each other; the last index is
-            any place where it was never seen.
+        to: (SLOTS, n, n) for each thing, from each place to each other; the last index is any
+            other place.
         classes: returns the class of a thing.
     """
 
@@ -82,7 +82,7 @@ class Rates:
 
 
 def learned(intervals: Sequence[Interval], classes: Callable[[str], str]) -> Rates:
-    """Estimate the rates that explain the intervals best."""
+    """Estimate the rates that explain the intervals best; without any, `UNSEEN_PER_DAY` for all."""
     if not intervals:
         return Rates(np.full(HOURS, UNSEEN_PER_DAY / HOURS), {}, {}, {}, classes)
     between = Between.of(intervals)

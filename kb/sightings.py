@@ -1,7 +1,8 @@
 """Turns facts into a history for each thing: seen here, absent there, unknown in between.
 
 A look at a whole place says something about every thing, whatever was looked for: what was not
-seen there is not there. Such looks come from searches, most of them unsuccessful.
+seen there is not there. A whole place was looked at if something was looked for there in vain, and
+often also where it was found: then a fact of kind LOOKED says so.
 """
 
 from bisect import bisect_right
@@ -12,7 +13,7 @@ from dataclasses import dataclass, field
 from kb.facts import Fact, FactKind
 
 LOOK_S = 60.0
-"""Facts about a place within this time (s) belong to one look."""
+"""Facts about a place within this time (s) after the first one belong to one look."""
 _SEEN = {FactKind.SEEN, FactKind.PUT, FactKind.SAID, FactKind.TAKEN}
 """Facts which say that the thing is, or was until now, at the place."""
 _OF_A_LOOK = {FactKind.SEEN, FactKind.MISSED, FactKind.LOOKED}
@@ -117,7 +118,7 @@ class Sightings:
             looks.append((look.since_s, frozenset(look.seen - look.missed)))
 
     def intervals(self) -> Iterator[Interval]:
-        """The intervals to learn from, each between two sightings of a thing."""
+        """The intervals to learn from: none begins when the robot took the thing away."""
         for thing, known in self.known.items():
             absences = self.absences(thing, known[0].time_s)
             for one, after in zip(known, known[1:], strict=False):
@@ -129,7 +130,7 @@ class Sightings:
                 yield Interval(thing, one.time_s, after.time_s, one.place, after.place, between)
 
     def absences(self, thing: str, since_s: float) -> list[tuple[float, str]]:
-        """When and where a thing was not seen after a time, in order."""
+        """When and where a thing was not, by looks or the person's words, after a time; sorted."""
         found = [
             (time_s, place)
             for place, looks in self.looks.items()

@@ -50,7 +50,7 @@ class Asked(BaseModel):
 
     @field_validator("object", "source", "goal", mode="before")
     @classmethod
-    def _nothing(cls, name: Any) -> Any:
+    def _null_is_empty(cls, name: Any) -> Any:
         return "" if name is None else name
 
     @property
@@ -145,7 +145,7 @@ def read(reply: str) -> tuple[Asked, ...]:
 
 
 def rank_request(words: str, texts: Understanding) -> RankRequest:
-    """A request for the score of each kind of command."""
+    """A request for the score of each kind of command in `SEARCHING`."""
     return RankRequest(
         label="command",
         messages=texts.chat(words),

@@ -12,6 +12,7 @@ BYTES_PER_TOKEN = 3
 SHARE_FOR_THE_HOME = 0.5
 """Share of the context window; the other half is for the reply (paper, section "Memory")."""
 SHARE_FOR_A_LIST = 0.3
+"""Share of the context window for the names in one question."""
 MOST_OPTIONS = 200
 """Places that are scored individually; more would take minutes."""
 
@@ -67,7 +68,7 @@ class Alike:
         return cls({group[0].name: group for group in groups}, few, firsts)
 
     def spoken_of(self) -> list[Place]:
-        """The place to ask about for each group, without what distinguishes it inside."""
+        """The place to ask about for each group; in a large home, it is told by its kinds alone."""
         firsts = [group[0] for group in self.groups.values()]
         if self.few:
             return firsts

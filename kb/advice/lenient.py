@@ -126,7 +126,9 @@ def _step(text: str, at: int, stack: list[_Open], unclosed: dict[str, int]) -> i
 
 
 def _scalar(text: str, at: int, unclosed: dict[str, int]) -> tuple[object, int] | None:
-    """The string, word or number at this position, and its end; None if there is none.
+    """The string or word at this position, and its end; None if there is none.
+
+    A number, or a word such as `true` or `null`, has the value None.
 
     `unclosed` maps an opening quote without a closing one to the end of its line: up to there it
     is not searched again.

@@ -80,7 +80,7 @@ class Lister:
         return self._request("again", text, choice)
 
     def summarize(self, name: str, reply: str) -> ChatRequest:
-        """Prompt `summarize`, with the reply if it is not in the memory."""
+        """Prompt `summarize`, after the exchange with this reply if the memory does not end so."""
         text = self._prompts.inquiry("summarize", object_name=name, situation=SITUATION)
         if self._history()[-1:] == (Message("assistant", reply),):
             return self._request("summarize", text, self._choices())

@@ -61,11 +61,11 @@ def rank_request(
             Precedent(texts.chat(spoken(other.name)), other.places, other.kind) for other in likest
         ),
         kind=thing.kind,
-        place_kinds=tuple((_told(place.kind), place.room) for place, _ in options),
+        place_kinds=tuple((_class_of(place.kind), place.room) for place, _ in options),
     )
 
 
-def _told(kind: str) -> str:
+def _class_of(kind: str) -> str:
     """The class of a place; empty if it is only "Furniture"."""
     return "" if kind == ANY_PLACE else kind
 

@@ -19,7 +19,7 @@ class Reader:
         self._texts = (prompts or Prompts.load()).understanding
 
     def ranking(self, words: str) -> RankRequest:
-        """A request to score the kinds of command."""
+        """A request to score the kinds of command that the words may mean."""
         return commands.rank_request(words, self._texts)
 
     def ranked(self, scored: Scored) -> CommandKind:
@@ -31,7 +31,10 @@ class Reader:
         return commands.chat_request(words, self._things(), self._places(), self._texts)
 
     def read(self, reply: str) -> str:
-        """The tasks of the reply as a plain sentence; empty if one names something unknown."""
+        """The tasks of the reply as a plain sentence.
+
+        Empty if there is none, or if one names something unknown.
+        """
         known = [self._known(task) for task in commands.read(reply)]
         if None in known:
             return ""
@@ -54,7 +57,7 @@ class Reader:
         return kinds[0] if len(kinds) == 1 else None
 
     def _place(self, words: str) -> str | None:
-        """The furniture or room whose name is exactly these words."""
+        """The one piece of furniture or room that all these words name, or ME; None if none."""
         if words == ME:
             return ME
         reading = self._ontology.place_names.exactly(words)

@@ -38,7 +38,7 @@ class Reply(BaseModel):
 
 
 def schema(places: Sequence[str], most: int) -> dict[str, Any]:
-    """JSON schema of a reply with at most `most` of these places.
+    """JSON schema of a reply with one to `most` of these places, and no others.
 
     For models that support a schema; the reply is verified in any case.
     """
@@ -62,11 +62,11 @@ def read(reply: str) -> tuple[str, ...] | None:
     loose = None
     for value in last_first(reply):
         names = _places(value)
-        if names is not None and not _is_a_pattern(names):
-            return _tidied(names)
-        loose = loose or _loosely(value)
+        if names is not None and not _is_placeholder(names):
+            return _without_bullets(names)
+        loose = loose or _loose_names(value)
     loose = loose or _lines(reply)
-    return _tidied(loose) if loose else None
+    return _without_bullets(loose) if loose else None
 
 
 def _lines(reply: str) -> list[str] | None:
@@ -77,12 +77,12 @@ def _lines(reply: str) -> list[str] | None:
     return names if len(names) == len(found) and all(names) else None
 
 
-def _is_a_pattern(names: list[str]) -> bool:
+def _is_placeholder(names: list[str]) -> bool:
     """Whether it only shows the format of an answer, as in `["...", "..."]`."""
     return bool(names) and not any(map(str.isalnum, "".join(names)))
 
 
-def _tidied(names: list[str]) -> tuple[str, ...]:
+def _without_bullets(names: list[str]) -> tuple[str, ...]:
     """The names without list numbers and bullets."""
     return tuple(_BULLET.sub("", writable(name).strip()) for name in names)
 
@@ -98,7 +98,11 @@ def _places(value: object) -> list[str] | None:
 
 
 def _listed(named: object) -> list[str] | None:
-    """The names in a list, in text with commas, or in the keys of an object with numbers."""
+    """The names in what is given as places; None if there are none.
+
+    It is a list, a text with commas, one name in an object, names by numbers ("1": "desk"), or
+    probabilities by names.
+    """
     if isinstance(named, list):
         return _names(named)
     if isinstance(named, str):
@@ -107,15 +111,15 @@ def _listed(named: object) -> list[str] | None:
         return _name(named)
     if all(key.strip().isdecimal() for key in named):
         return _names(list(named.values()))
-    return None if any(map(_says_more, named.values())) else list(named)
+    return None if any(map(_is_no_probability, named.values())) else list(named)
 
 
-def _says_more(value: object) -> bool:
-    """Whether the value is more than a probability."""
+def _is_no_probability(value: object) -> bool:
+    """Whether the value is neither a number nor null."""
     return value is not None and not isinstance(value, int | float)
 
 
-def _loosely(value: object) -> list[str] | None:
+def _loose_names(value: object) -> list[str] | None:
     """The names in a bare list, or the name of an object; a list of bare words is prose."""
     if not isinstance(value, list):
         return _name(value)
@@ -123,7 +127,10 @@ def _loosely(value: object) -> list[str] | None:
 
 
 def _names(parts: list[object]) -> list[str] | None:
-    """One name for each part, ignoring null; None if a part has no name."""
+    """One name for each part; None if a part has no name, or if all are null.
+
+    Null is ignored; `lenient` also gives it for numbers.
+    """
     named = [_rated(part) or _name(part) for part in parts if part is not None]
     if parts and not named:
         return None
@@ -135,7 +142,7 @@ def _rated(part: object) -> list[str] | None:
     """The name in a pair of name and probability; None if it is no such pair."""
     if isinstance(part, dict) and not any(key.strip().lower() in NAME_KEYS for key in part):
         part = [value for pair in part.items() for value in pair]
-    if not isinstance(part, list) or len(part) != 2 or _says_more(part[1]):
+    if not isinstance(part, list) or len(part) != 2 or _is_no_probability(part[1]):
         return None
     return _name(part[0])
 

@@ -70,7 +70,7 @@ def placements(data: Placements, fold: str, new: bool = False) -> DataSet:
     """One fold of the placements; the train fold is given as precedents.
 
     The folds share many nouns: "white shirt", "blue shirt". `new` keeps only things whose noun
-    (last word) is in no precedent.
+    (last word) is that of no precedent.
     """
     known = data.folds["train"]
     nouns = {words_of(thing.name)[-1] for thing in known} if new else set()

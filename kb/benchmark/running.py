@@ -77,7 +77,7 @@ def baselines(data: DataSet) -> Iterator[Row]:
     """The methods without a model.
 
     Popularity counts the precedents. If there are none, it counts the right answers themselves,
-    which is hindsight: an upper bound for a single order for all objects.
+    which nobody can know beforehand: it shows how far one order for all objects may get.
     """
     places = [place.name for place in data.places]
     chances = (expected_of_chance(len(places), len(q.thing.places)) for q in data.questions)
@@ -140,7 +140,7 @@ def run(given: argparse.Namespace) -> None:
     journal = Journal(given.journal, _described(given))
     tables: Tables = {}
     for data in sets:
-        tables[data.name] = _asked(data, given, journal)
+        tables[data.name] = _table_of(data, given, journal)
         if not given.json:
             print(text(data, tables[data.name]), flush=True)
     if given.json:
@@ -151,7 +151,7 @@ def run(given: argparse.Namespace) -> None:
         draw_reliability(sets, tables)
 
 
-def _asked(data: DataSet, given: argparse.Namespace, journal: Journal) -> list[Row]:
+def _table_of(data: DataSet, given: argparse.Namespace, journal: Journal) -> list[Row]:
     """The table of one data set, by a fresh model that remembers no other set."""
     inbox = Inbox()
     model = _model(given, inbox)

@@ -27,7 +27,7 @@ WHOLE = (-1, -1)
 
 
 class Context:
-    """The KV cache: sequence 0 is the prompt; further sequences are used for scoring.
+    """The KV cache: sequence 0 is the prompt and its reply; further ones are used for scoring.
 
     Belongs to one thread.
     """
@@ -137,7 +137,7 @@ class Context:
         self._append(tokens, state=False)
 
     def _append(self, tokens: Sequence[int], *, state: bool) -> None:
-        """Append tokens; with `state`, the hidden state is kept, too, which costs 20 % more."""
+        """Append tokens; with `state`, their hidden states are computed, too: a fifth more work."""
         rows = [_Row(token, self._length + i) for i, token in enumerate(tokens)]
         rows[-1] = replace(rows[-1], wanted=True)
         llama_cpp.llama_set_embeddings(self.pointer, state)

@@ -82,7 +82,7 @@ def _told_by_child(path: Path, called_off: Callable[[], bool]) -> list[str]:
         return lines
     if lines:
         raise ModelError(printable(lines[0])[:LONGEST_FAULT])
-    raise ModelError(f"model {printable(path)} cannot be loaded: {_death(child.returncode)}")
+    raise ModelError(f"model {printable(path)} cannot be loaded: {_cause_of_end(child.returncode)}")
 
 
 def _until_ended(
@@ -101,7 +101,7 @@ def _until_ended(
                 return child.communicate()[0]
 
 
-def _death(code: int) -> str:
+def _cause_of_end(code: int) -> str:
     if code == -signal.SIGALRM:
         return "its chat template has no end"
     if code == -signal.SIGKILL:
@@ -115,7 +115,9 @@ def _death(code: int) -> str:
 
 
 def mark_of(path: Path) -> str:
-    """A hash that identifies the file and the llama.cpp version, from samples of the file.
+    """A hash that identifies the file and the llama.cpp version.
+
+    It is made from samples of the file, because to read all of it takes long.
 
     Raises:
         ModelError: if the file cannot be read.

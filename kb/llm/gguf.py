@@ -141,7 +141,7 @@ def _goes_on(checkpoint: Checkpoint) -> Callable[[float, ctypes.c_void_p], bool]
 
 
 def last_complaint() -> str:
-    """The first error message of llama.cpp; later ones only repeat that it failed."""
+    """Take the first error message of llama.cpp; later ones only say that it gives up."""
     said = _complaints[0] if _complaints else "llama.cpp does not say why"
     _complaints.clear()
     return printable(said.removeprefix("llama_model_load: error loading model: "))

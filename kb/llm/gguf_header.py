@@ -156,7 +156,7 @@ class _Reader:
             self._refuse(f"has lists in the list {name!r}")
 
     def _tensors(self, count: int, values: Mapping[str, Value]) -> None:
-        """Skip the descriptions of the tensors, after checking that their data is in the file."""
+        """Skip the descriptions of the tensors; check that the data of each begins in the file."""
         alignment = values.get("general.alignment", 32)
         if not isinstance(alignment, int) or not 0 < alignment <= 1 << 20:
             self._refuse(f"has an impossible alignment, {alignment}")

@@ -26,7 +26,7 @@ MOST_BYTES = 64 << 20
 """Larger results are not kept."""
 MOST_FILES = 2000
 MOST_BYTES_IN_ALL = 256 << 20
-"""Above this limit, the least recently used files are deleted."""
+"""Above these limits, the least recently used files are deleted."""
 LOOKED_OVER_AFTER = 200
 """How many results are written before the limits are checked again."""
 A_DAY_S = 86400.0
@@ -65,7 +65,7 @@ class Kept:
         return content
 
     def put(self, content: bytes, *asked: object) -> None:
-        """Keep the result of a request, if there is a cache folder."""
+        """Keep the result of a request, if there is a cache folder and it is not too large."""
         if self._folder is None or len(content) > MOST_BYTES:
             return
         name = self._name(asked)

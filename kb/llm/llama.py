@@ -30,7 +30,7 @@ if TYPE_CHECKING:  # they import llama.cpp, which many missions do not need
     from kb.llm.sampler import Sampler
 
 CLOSING_S = 2.0
-"""How long `close` waits for the model's thread."""
+"""How long `close` waits for the model's thread (s)."""
 
 log = logging.getLogger(__name__)
 
@@ -72,8 +72,8 @@ def until(stop: threading.Event) -> "Checkpoint":
 class LlamaCpp:
     """Implements `LanguageModel`. Requests are served one after another, in order.
 
-    The model is loaded in the background, and only when something must be evaluated: results are
-    kept, also for other processes, and the same question again needs no model. The part of a prompt
+    The model is loaded in the background, and only when something must be evaluated: scores are
+    kept, also for other processes, and to rank the same again needs no model. The part of a prompt
     that it shares with the one before is not evaluated again. Writing and scoring have a KV cache
     each, which is made when it is needed.
     """
@@ -268,7 +268,7 @@ class LlamaCpp:
         return Scored(request, tuple(scores.tolist()), usage)
 
     def _prompt(self, request: ChatRequest) -> "tuple[Tokens, int]":
-        """The tokens of a prompt, and how many of them belong to the system turn."""
+        """The tokens of a prompt, and how many are in the system turn, which others share."""
         system_only = (*request.messages[:1], Message("user", ""))
         return self._load().model.prompt(request.messages, system_only)
 

@@ -27,7 +27,10 @@ _CHATS = (
 
 
 class Template:
-    """Fills in a chat template, in jinja's sandbox; without a system turn if it supports none."""
+    """Fills in a chat template, in jinja's sandbox.
+
+    If it supports no system turn, what that says is put into the user's first turn.
+    """
 
     def __init__(self, text: str, begin: str, end: str) -> None:
         """Parse the template and test it.
@@ -38,7 +41,7 @@ class Template:
             end: markup of the token that ends one.
 
         Raises:
-            ModelError: if it cannot be parsed, or omits the content of turns.
+            ModelError: if it cannot be parsed, rejects plain chats, or omits the content of turns.
         """
         try:
             self._formatter = Jinja2ChatFormatter(text, eos_token=end, bos_token=begin)

@@ -7,7 +7,10 @@ from executive.types.llm import Message
 
 
 def without_system(chat: Sequence[Message]) -> tuple[Message, ...]:
-    """The chat with the content of its system turns at the start of the first user turn."""
+    """The chat with the content of its system turns at the start of the first user turn.
+
+    If there is no user turn, one with this content comes first.
+    """
     system = [turn.content for turn in chat if turn.role == "system"]
     others = [turn for turn in chat if turn.role != "system"]
     first = next((i for i, turn in enumerate(others) if turn.role == "user"), None)

@@ -14,7 +14,7 @@ from kb.ontology.owl import ending
 LEAST_LIKENESS = 75.0
 """Minimum likeness (0 to 100, rapidfuzz) of a name and its misspelling."""
 MOST_COMPARED = 100
-"""Only for so many names, the right spelling is searched."""
+"""The right spelling is searched for only so many dangling links, as that takes time."""
 
 _LINKS = frozenset(
     (RDF.type, RDF.first, RDFS.subClassOf, RDFS.subPropertyOf, RDFS.domain, RDFS.range)
@@ -54,12 +54,12 @@ def broken_lists(graph: Graph) -> Iterator[str]:
     walked = set[Identifier]()
     for subject, relation, items in graph.triples():
         walks = relation in _LISTS and isinstance(items, BNode)
-        if walks and (fault := _break(graph, items, walked)):
+        if walks and (fault := _list_fault(graph, items, walked)):
             right = "give each part rdf:first and rdf:rest, the last one rdf:nil"
             yield f"{_title(graph, subject)} {ending(relation)} a list {fault}: {right}"
 
 
-def _break(graph: Graph, part: Identifier, walked: set[Identifier]) -> str | None:
+def _list_fault(graph: Graph, part: Identifier, walked: set[Identifier]) -> str | None:
     """What is wrong with a list; None if nothing is, or if it was checked before."""
     here = set[Identifier]()
     while part != RDF.nil and part not in walked:

@@ -10,9 +10,9 @@ from executive.language.phrases import MOST_WORDS, words_of
 from executive.types.home import OtherColor
 
 LONGEST = 20
-"""Longer texts are not treated as a description."""
+"""Words; a longer text is not treated as a description."""
 MOST_TOLD = 6
-"""Up to so many things, the message tells that they have another colour."""
+"""Things that are told to have another colour; if more would match, that helps nobody."""
 
 
 class Role(Flag):
@@ -89,7 +89,10 @@ class Descriptions:
         return tuple(self._colored(description)) if description else ()
 
     def other_color(self, words: str) -> OtherColor | None:
-        """The objects that would match but for the colour in the words; None if others do."""
+        """The objects that would match but for the colour in the words.
+
+        None if any object matches, if there are more than `MOST_TOLD`, or if one has no colour.
+        """
         description = self._read(words)
         if not description or not description.colors or any(self._colored(description)):
             return None

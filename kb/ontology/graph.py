@@ -119,18 +119,18 @@ class Graph:
         return [t for t in self.objects(entity, RDF.type) if not t.startswith(STANDARDS)]
 
     def parts(self, kind: Identifier) -> list[Identifier]:
-        """All superclasses and restrictions of a class, including the operands of intersections.
+        """All direct superclasses and restrictions of a class, with the operands of intersections.
 
         An anonymous equivalent class counts as well. A named one does not: the two classes would
         be below each other.
         """
         same = [k for k in self.objects(kind, OWL.equivalentClass) if isinstance(k, BNode)]
-        queue = [*self.objects(kind, RDFS.subClassOf), *same, *self._joined(kind)]
+        queue = [*self.objects(kind, RDFS.subClassOf), *same, *self._operands(kind)]
         found = dict[Identifier, None]()
         for part in queue:
             if part not in found:
                 found[part] = None
-                queue.extend(self._joined(part) if isinstance(part, BNode) else ())
+                queue.extend(self._operands(part) if isinstance(part, BNode) else ())
         return list(found)
 
     def upwards(self, kind: Identifier) -> Iterator[Identifier]:
@@ -153,7 +153,10 @@ class Graph:
                 stack.extend(reversed(self._below.get(current, ())))
 
     def leaves(self, kind: Identifier) -> list[Identifier]:
-        """The subclasses (or the class itself) without further subclasses, apart from cycles."""
+        """The subclasses (or the class itself) without further subclasses.
+
+        In a cycle, where classes are below each other, these do not count as further ones.
+        """
         return [c for c in self.downwards(kind) if self._is_leaf(c)]
 
     def instances(self, kind: Identifier) -> list[Identifier]:
@@ -228,7 +231,7 @@ class Graph:
             if isinstance(part, URIRef) and part in self._about and not part.startswith(STANDARDS)
         ]
 
-    def _joined(self, kind: Identifier) -> list[Identifier]:
+    def _operands(self, kind: Identifier) -> list[Identifier]:
         lists = self.objects(kind, OWL.intersectionOf)
         return [member for items in lists for member in self.members(items)]
 

@@ -58,7 +58,10 @@ class Library:
                     )
 
     def warnings(self, known: set[Identifier]) -> Iterator[str]:
-        """Files that add less than expected, given the entities that are used."""
+        """Sentences about imports that are not loaded, and files that add less than expected.
+
+        `known` are the entities that are used.
+        """
         yield from self.unmet_imports()
         for name, earlier in map(_both_printable, self._replaced):
             right = "give them IRIs of their own, if both are to count"

@@ -93,7 +93,7 @@ class PlaceNames:
         )
 
     def exactly(self, name: str) -> Reading:
-        """The only piece of furniture or room that matches all words of the name, else nothing."""
+        """The one piece of furniture or room that all words of the name match, else nothing."""
         reading = self._read(place_words(_ENUMERATION.sub("", name)))
         if reading.unknown or len(reading.furniture) + len(reading.rooms) != 1:
             return Reading()

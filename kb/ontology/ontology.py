@@ -95,7 +95,7 @@ class Ontology:
         self._graph.expect_bounded([_class(root) for root in ROOTS])
         self._places = {place.name: place for place in places}
         self._usual_places: dict[str, tuple[str, ...]] = {}
-        """A cache."""
+        """Cache of `usual_places`."""
         self._order = {name: number for number, name in enumerate(self._places)}
         self._home = HomeAdditions(self._graph, CLASSES, home)
         for place in places:
@@ -270,7 +270,7 @@ class Ontology:
         return tuple(map(ending, self._default_locations(name)))
 
     def recorded_locations(self) -> dict[str, tuple[str, ...]]:
-        """Objects and classes with default locations of their own in a file, and these."""
+        """Default locations by object or class, for those that have some of their own in a file."""
         recorded = {self._graph.label(thing): self._locations(thing) for thing in self._things}
         return {name: tuple(map(ending, places)) for name, places in recorded.items() if places}
 
@@ -300,7 +300,7 @@ class Ontology:
         return HomeAdditions(graph, CLASSES, home).faults(places, things)
 
     def unused(self) -> Iterator[str]:
-        """A sentence for each statement in the files that the robot does not use."""
+        """Sentences about what the files state and the robot does not use."""
         return unused(self._graph, CLASSES)
 
     def unmet_imports(self) -> tuple[str, ...]:
@@ -308,7 +308,7 @@ class Ontology:
         return tuple(self._library.unmet_imports())
 
     def warnings(self) -> tuple[str, ...]:
-        """A sentence for each file that adds less than expected."""
+        """Sentences about imports that are not loaded, and files that add less than expected."""
         graph, roots = self._graph, list(map(_class, ROOTS))
         kinds = {kind for root in roots for kind in graph.downwards(root)}
         individuals = {one for root in roots for one in graph.instances(root)}

@@ -53,7 +53,7 @@ for _kind in (RDF.XMLLiteral, RDF.HTML):
 class OwlFile:
     """A parsed file: its triples, the IRI and versions of its ontology, and the IRIs it imports.
 
-    Cached: the same content gives the same object.
+    Cached: the same path with the same content gives the same object, for the last few files.
     """
 
     path: Path
@@ -74,7 +74,7 @@ def read(path: Path) -> OwlFile:
 
 
 def parsed(path: Path, content: bytes) -> OwlFile:
-    """Parse a file; without a declared IRI, its IRI is its xml:base, or else its path.
+    """Parse a file; without a declared IRI, its IRI is its xml:base, or else its file: address.
 
     Raises:
         InputError: if it is neither RDF/XML nor Turtle, refers to another file, is too large, or

@@ -32,7 +32,7 @@ class Properties:
         return URIRef(self._namespace + name)
 
     def are_declared(self) -> bool:
-        """Whether the ontology declares colours."""
+        """Whether the ontology declares the property `color`."""
         return self._graph.is_declared(self.iri(COLOR))
 
     def nearest(self, thing: Identifier, name: str) -> tuple[Literal, ...]:

@@ -36,7 +36,7 @@ def is_xml(content: bytes, where: str) -> bool:
     """Whether the content is XML; else it is Turtle, which includes N-Triples.
 
     Raises:
-        InputError: if it is neither; the message says how to save it.
+        InputError: if it is neither; the message says what would be right.
     """
     if content.startswith(_PACKED):
         raise InputError(where, "is compressed", "unpack it, and name the file that was in it")

@@ -26,7 +26,8 @@ def put_thing(
         where: the location in error messages.
 
     Raises:
-        InputError: if something else has the name, or its class is an object itself.
+        InputError: if the name has no word, or something else has it, or if the class is an object
+            itself.
     """
     objects = graph.leaves(URIRef(namespace + ROOTS[0]))
     if not words_of(name) or graph.is_declared(iri):

@@ -35,7 +35,7 @@ _CONSTRUCTS: dict[Identifier, str] = {
 
 
 def unused(graph: Graph, namespace: str) -> Iterator[str]:
-    """A sentence for each thing that is not used, with what would be.
+    """Sentences about what is not used, with what would be; the last one sums up all the rest.
 
     Args:
         graph: the triples of the loaded files.

@@ -34,32 +34,32 @@ def faults(graph: Graph, namespace: str, *, imports_met: bool = True) -> Iterato
     """
     roots = {name: URIRef(namespace + name) for name in ROOTS}
     links = list(dangling(graph, strict=imports_met))
-    yield from _some(dict.fromkeys(map(str, links)), "links to nothing")
-    yield from _some(broken_lists(graph), "broken lists")
-    yield from _some(_cycles(graph), "circles")
+    yield from _limited(dict.fromkeys(map(str, links)), "links to nothing")
+    yield from _limited(broken_lists(graph), "broken lists")
+    yield from _limited(_cycles(graph), "circles")
     told = {link.subject for link in links}
-    yield from _some(_outsiders(graph, list(roots.values()), told), "in no class")
+    yield from _limited(_outsiders(graph, list(roots.values()), told), "in no class")
     things = list(graph.downwards(roots["Object"]))
-    yield from _some(_of_two_sorts(graph, roots), "of two sorts")
-    yield from _some(_impossible(graph), "below Nothing")
+    yield from _limited(_of_two_sorts(graph, roots), "of two sorts")
+    yield from _limited(_impossible(graph), "below Nothing")
     refused = (
         why
         for root in roots.values()
-        for kind in _all(graph, root)
+        for kind in _with_individuals(graph, root)
         for why in graph.called(kind).refused
     )
-    yield from _some(refused, "names that are not used")
-    yield from _some(_taken(graph, things), "names that are taken")
-    yield from _some(_ambiguous(graph, roots), "names of two things")
-    yield from _some(_homeless(graph, roots, URIRef(namespace + "isIn")), "without a room")
-    yield from _some(_misplaced(graph, things, roots, namespace), "default locations")
-    yield from _some(_individuals(graph, roots["Object"]), "individuals")
+    yield from _limited(refused, "names that are not used")
+    yield from _limited(_taken(graph, things), "names that are taken")
+    yield from _limited(_ambiguous(graph, roots), "names of two things")
+    yield from _limited(_homeless(graph, roots, URIRef(namespace + "isIn")), "without a room")
+    yield from _limited(_misplaced(graph, things, roots, namespace), "default locations")
+    yield from _limited(_individuals(graph, roots["Object"]), "individuals")
     prepositions = _prepositions(graph, roots["Furniture"], URIRef(namespace + "preposition"))
-    yield from _some(prepositions, "prepositions")
-    yield from _some(misuse(graph, namespace, roots["Object"]), "colours, shapes and uses")
+    yield from _limited(prepositions, "prepositions")
+    yield from _limited(misuse(graph, namespace, roots["Object"]), "colours, shapes and uses")
 
 
-def _some(told: Iterable[str], of: str) -> Iterator[str]:
+def _limited(told: Iterable[str], of: str) -> Iterator[str]:
     """The first faults of a kind, and the number of the others."""
     every = iter(told)
     yield from islice(every, MOST_OF_A_KIND)
@@ -67,7 +67,7 @@ def _some(told: Iterable[str], of: str) -> Iterator[str]:
         yield f"and {more} more of this kind ({of})"
 
 
-def _all(graph: Graph, root: Identifier) -> Iterator[Identifier]:
+def _with_individuals(graph: Graph, root: Identifier) -> Iterator[Identifier]:
     """The class with its subclasses, and their individuals."""
     yield from graph.downwards(root)
     yield from graph.instances(root)
@@ -135,7 +135,7 @@ def _ambiguous(graph: Graph, roots: dict[str, URIRef]) -> Iterator[str]:
     """Names shared by two classes of one root, by two people, or by a thing and a place."""
     of_places: dict[Words, Identifier] = {}
     for root in ("Furniture", "Room"):
-        for place in _all(graph, roots[root]):
+        for place in _with_individuals(graph, roots[root]):
             for name in graph.names(place):
                 of_places.setdefault(words_of(name), place)
     for title, root in roots.items():
@@ -169,14 +169,16 @@ def _misplaced(
     furniture = set(graph.instances(roots["Furniture"]))
     people = set(graph.instances(roots["Person"]))
     for thing in things:
-        for place in _wrong(graph, graph.values(thing, usual), furniture):
+        for place in _of_wrong_kind(graph, graph.values(thing, usual), furniture):
             fault = f"{ending(thing)} has a default location, {place}, that is no furniture"
             yield f"{fault}: name a piece of furniture"
-        for person in _wrong(graph, graph.values(thing, likes), people):
+        for person in _of_wrong_kind(graph, graph.values(thing, likes), people):
             yield f"{ending(thing)} is preferred by {person}, which is no Person: name one"
 
 
-def _wrong(graph: Graph, values: Iterable[Identifier], right: set[Identifier]) -> Iterator[str]:
+def _of_wrong_kind(
+    graph: Graph, values: Iterable[Identifier], right: set[Identifier]
+) -> Iterator[str]:
     """Values of the wrong kind; undeclared ones are reported elsewhere."""
     for value in values:
         declared = graph.is_declared(value) or not isinstance(value, URIRef)

@@ -4,7 +4,7 @@ A world has at most one such process, for the pictures of the log and of the rob
 pictures are the same as ours, except for rare pixels in which two surfaces are equally far. The
 pixels of a frame arrive later than the frame. Nobody waits for pictures of the log; the mission
 waits for those of the robot's camera, but can be stopped meanwhile. If there is no such process, or
-too many pictures are queued, this process draws the picture at once.
+too many pictures for the log are queued, this process draws the picture at once.
 """
 
 import logging
@@ -45,7 +45,7 @@ class Beside:
         Args:
             actors: all that moves in the world.
             blueprint: how the world looks; the world must be complete.
-            recorder: receives a warning if the process fails.
+            recorder: receives a warning if the process cannot be started, or fails later.
         """
         self._actors = actors
         self._recorder = recorder
@@ -86,7 +86,7 @@ class Beside:
         return None
 
     def close(self) -> None:
-        """Wait until all requested pictures are drawn, then end the process."""
+        """Wait until the requested pictures are drawn, as long as one may take; end the process."""
         if self._painter is not None:
             self._painter.close()
             self._painter = None

@@ -4,8 +4,8 @@ Requests come on its standard input, pixels go to its standard output, both pick
 its input ends, that is, when the requesting process ends in any way. Of this project it imports
 only what draws pictures, so that it starts fast and stays small.
 
-For a large picture that somebody waits for, it draws one half, while a forked process, which shares
-its memory, draws the other.
+For a large picture that somebody waits for, it draws every second column, while a forked process,
+which shares its memory, draws the others.
 """
 
 import os
@@ -98,14 +98,14 @@ class _Renderer:
         return seen.color, seen.depth
 
     def draw_part(self, wanted: Asked) -> Pixels:
-        """Draw a view in one call of the renderer, as one half of a picture."""
+        """Draw a view in one call of the renderer: half of a large picture, or all of another."""
         self._actors.put(wanted.moment)
         seen = draw_part(self._client, wanted.view)
         return seen.color, seen.depth
 
 
 class _Pair:
-    """Draws pictures in two halves at once, one in this process, one in a forked process."""
+    """Draws large pictures in two halves at once, one in this process, one in a forked process."""
 
     def __init__(self, renderer: _Renderer) -> None:
         self._renderer = renderer

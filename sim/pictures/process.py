@@ -43,6 +43,7 @@ class Painter:
 
         Raises:
             OSError: if the process cannot be started.
+            RuntimeError: if no thread can be started.
         """
         self._process = subprocess.Popen(
             program or command(),
@@ -72,7 +73,7 @@ class Painter:
         return coming
 
     def close(self) -> None:
-        """Wait until all requested pictures are drawn, then end the process."""
+        """Wait until the requested pictures are drawn, at most PATIENCE_S; end the process."""
         wait(self._waiting, PATIENCE_S)
         self._end()
         self._thread.shutdown()

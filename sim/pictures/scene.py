@@ -21,9 +21,9 @@ Placed = tuple[tuple[float, ...], tuple[float, ...]]
 """Position and orientation of a body."""
 
 _NO_SHAPE = -1
-_STAYS = 0.0
+_STATIC_MASS = 0.0
 """The mass of bodies that the physics does not move."""
-_ONLY_SEEN = p.URDF_IGNORE_COLLISION_SHAPES
+_VISUAL_ONLY = p.URDF_IGNORE_COLLISION_SHAPES
 
 
 class Blueprint:
@@ -102,7 +102,7 @@ def _build(client: BulletClient, steps: Sequence[Step]) -> int:
             case "loadURDF":
                 made = _load(client, *given, **named)
             case "createMultiBody":
-                made = client.createMultiBody(_STAYS, _NO_SHAPE, made, *given, **named)
+                made = client.createMultiBody(_STATIC_MASS, _NO_SHAPE, made, *given, **named)
             case "changeVisualShape":
                 client.changeVisualShape(made, *given, **named)
             case _:
@@ -114,7 +114,7 @@ def _load(client: BulletClient, description: str, **named: Any) -> int:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "robot.urdf")
         path.write_text(description)
-        made: int = client.loadURDF(str(path), flags=_ONLY_SEEN, **named)
+        made: int = client.loadURDF(str(path), flags=_VISUAL_ONLY, **named)
     return made
 
 

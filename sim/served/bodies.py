@@ -178,13 +178,13 @@ class FakeBody:
         self.draws_beside = False
 
     def start(self, goal: AnyGoal) -> int:
-        """Pursue a goal; there are no goals for arm and hand here, and the head looks at places."""
+        """Pursue a goal; arm and hand have no motions here, and the head only looks at places."""
         assert not isinstance(goal, Face | MoveHand | MoveJoints | Grip)
         return self._robot.start(goal)
 
     @property
     def busy(self) -> bool:
-        """Whether any effect of a goal is still due."""
+        """Whether any goal has not ended yet."""
         return self.world.busy
 
     @property

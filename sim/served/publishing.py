@@ -76,7 +76,10 @@ class Publisher:
         self._newest = None
 
     def expect_picture(self) -> None:
-        """Start drawing a picture now if clients use pictures, and it costs no waiting."""
+        """Start a picture of now, which will be wanted soon if pictures ever were.
+
+        Only if another process draws it, and has no other picture to draw.
+        """
         if self._takes_pictures and self._body.draws_beside and not self.is_drawing:
             self._picture()
 

@@ -28,7 +28,7 @@ FAILED = 1
 ERROR_CODES = {NO_MOTION: NO_PLAN, UNREACHABLE: NO_IK}
 """MoveIt's error codes, by the reasons of failed arm motions."""
 THIN_M = 0.002
-"""Goal tolerance of the fingers' gap."""
+"""Goal tolerance of the fingers' gap (metres)."""
 
 
 @dataclass(eq=False)

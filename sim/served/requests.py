@@ -45,7 +45,7 @@ _FLOAT32 = 7
 class Reader:
     """Converts goals of actions to goals of the robot.
 
-    All methods raise PacketError if the goal is invalid.
+    The methods that read a goal raise PacketError if it is invalid.
 
     Attributes:
         home: the robot's home.

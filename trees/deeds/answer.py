@@ -1,4 +1,4 @@
-"""What all questions have in common that are answered by looking: look, come back, answer.
+"""What the questions that are answered by looking have in common: look, come back, answer.
 
 If there is more to do, the robot tells the answer on the way.
 """
@@ -47,7 +47,7 @@ class Answer(Deed):
         return False
 
     def is_true_of(self, outcome: Outcome | TaskOutcome, where: Callable[[str], str]) -> bool:
-        """True if each thing is where the robot looked, and none that was asked for is missing."""
+        """True if each named thing is where the robot looked, and the answer fits what is there."""
         if isinstance(outcome, Outcome):
             [outcome] = outcome.tasks
         there = {name for name in outcome.among if where(name) in outcome.visited}
@@ -60,11 +60,11 @@ class Answer(Deed):
 
     @abstractmethod
     def answer(self, context: MissionContext) -> tuple[str, str]:
-        """The answer as a sentence, and why it may be wrong; empty if it is complete."""
+        """What was seen as a sentence, and why this is no sure answer; empty if it is one."""
 
 
 class Tell(Step):
-    """Tells the answer; fails if it may be wrong because not all was seen.
+    """Tells the answer; fails if there is none, or if it may be wrong because not all was seen.
 
     Reads survey.seen and search.looks; writes ending.reason.
     """

@@ -76,7 +76,10 @@ def say_where(context: MissionContext) -> Behaviour:
 
 
 def deliver(context: MissionContext) -> Behaviour:
-    """Carry the thing and put it down; if it falls on the way or there, pick it up once."""
+    """Carry the thing and put it down; if that fails there, on other furniture.
+
+    If it falls on the way, or when it is put down, it is picked up again, once each.
+    """
     return sequence(
         "deliver",
         fallback(

@@ -13,7 +13,7 @@ class CheckWhether(Answer):
     kind = CommandKind.CHECK
 
     def is_enough(self, situation: Situation) -> bool:
-        """It is, as soon as one such thing was seen."""
+        """True as soon as one such thing was seen."""
         return bool(situation.survey.found)
 
     def agrees(self, named: set[str], there: set[str]) -> bool:

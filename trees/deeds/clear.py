@@ -54,7 +54,7 @@ class Clear(Deed):
 
 
 def which_to_clear(context: MissionContext) -> tuple[str, ...]:
-    """The places that the words may mean, if they mean one and it is not clear which."""
+    """The places that the words may mean, if they mean one and it is not clear which; else none."""
     command = context.situation.request.asked_for
     one = not is_plural(command.source) and may_be_several(context, command.source)
     return places_in(context, command.source) if one else ()
@@ -90,13 +90,13 @@ class AskWhichToClear(Ask):
 
 
 class PutEachAway(Step):
-    """Succeeds if there are things; a task is made to put each where it usually is.
+    """Succeeds if there are things; makes a task to put each where it was said, or usually is.
 
     Reads request.command and survey.seen; writes agenda.wholes and agenda.tasks.
     """
 
     def update(self) -> Status:
-        """Make the tasks; things without a usual place all go to one spare place."""
+        """Make the tasks; things without another usual place all go to one spare place."""
         command, found = self.situation.request.asked_for, self.situation.survey.found
         if not found:
             return self.fail(nothing_there(self.context))

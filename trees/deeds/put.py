@@ -88,7 +88,10 @@ def put_at_goal(context: MissionContext) -> Behaviour:
 
 
 def carry(context: MissionContext) -> Behaviour:
-    """Take the thing to the chosen goal and put it down; if it falls, pick it up once."""
+    """Take the thing to the chosen goal and put it down.
+
+    If it falls on the way, or when it is put down, it is picked up again, once each.
+    """
     hand = context.situation.hand
 
     def again(step: Behaviour, *, at_goal: bool) -> Behaviour:
@@ -149,7 +152,7 @@ class NotAtGoal(Step):
 
 
 def why_not(context: MissionContext) -> str:
-    """Where the thing could not be put, and why, as a clause; empty if no place was tried."""
+    """Where the thing could not be put, and why, as a clause; empty if no place has failed."""
     situation, say = context.situation, context.say
     it = say.it(situation.request.thing)
     tried = [

@@ -64,7 +64,10 @@ def empty_hand(context: MissionContext) -> Behaviour:
 
 
 def was_sent_here(context: MissionContext) -> bool:
-    """Whether the robot is at furniture where the last task or command sent it."""
+    """Whether the robot is at furniture to which it was just told to go.
+
+    The last task of this mission counts, or else the last one of the request before.
+    """
     situation, at = context.situation, context.situation.dialogue.at
     before = situation.dialogue.spoken
     if last := situation.agenda.ended[-1:]:
@@ -110,7 +113,10 @@ def put_down_somewhere(context: MissionContext, name: str, *first: str) -> Behav
 
 
 def go_and_put(context: MissionContext, *before: Behaviour) -> Behaviour:
-    """Take the thing to the furniture hand.surface and put it down; `before` may change that."""
+    """Take the thing to the furniture hand.surface and put it down.
+
+    The steps `before` run first, and may choose other furniture.
+    """
     return sequence(
         "go and put",
         Check("still in my hand", context, lambda: context.situation.hand.in_hand is not None),
@@ -124,7 +130,7 @@ class NotPutDown(Step):
     """Says where there was no room, and why the person could not help; always fails."""
 
     def update(self) -> Status:
-        """Say where; if the hand is empty, give the reason of what was tried before."""
+        """Say where; if the hand is empty or no place has failed, give the reason from before."""
         tried, silence = (
             self.situation.hand.not_put_down(self.context.say),
             self.situation.dialogue.no_help,

@@ -36,7 +36,7 @@ class TellWhatIsThere(Answer):
     kind = CommandKind.TELL
 
     def answer(self, context: MissionContext) -> tuple[str, str]:
-        """Of one thing, it is the biggest and the smallest."""
+        """What was seen; the thing with a superlative first, if sight can decide which it is."""
         found, command = context.situation.survey.found, context.situation.request.asked_for
         why_not = not_seen(context)
         if not found:

@@ -34,7 +34,7 @@ MOST_MODELS = 5
 LOOKING_S = 10.0
 """Time limit for a list of models (s), if a model is named or no request is waiting."""
 MOST_OF_A_LISTING = 4 << 20
-"""Bytes."""
+"""Maximum size of a list of models (bytes)."""
 BUSY = (429, 503, 529)
 NOT_HERE = (404, 405, 501)
 DENIED = (401, 403, 407)
@@ -97,7 +97,7 @@ class Asking:
         self.name = model or self._shown
 
     async def look(self) -> str:
-        """Ask for the models; return why the server cannot be used, if that is already known."""
+        """Ask for the models; return why the server cannot be used, or "" if nothing is known."""
         try:
             async with asyncio.timeout(min(LOOKING_S, self._timeout_s)):
                 await self._look()

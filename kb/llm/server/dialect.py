@@ -97,7 +97,10 @@ class Dialect:
         return bool(named)
 
     def guesses(self, refused: Refused, body: Mapping[str, Any]) -> bool:
-        """Omit something if the server does not say what it refuses; False if nothing is left."""
+        """Omit something if the server does not say what it refuses; whether that was possible.
+
+        It is not if nothing is left to omit, or if the refusal has another reason.
+        """
         if "response_format" in body and refused.status in (*_DISLIKES, 500):
             self._schemas.pop(0)
             return True

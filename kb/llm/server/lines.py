@@ -10,7 +10,7 @@ import httpx2
 from kb.llm.server.packed import unpacked
 
 MOST_BYTES = 8 << 20
-"""Maximum size of a reply."""
+"""Maximum size of a reply (bytes)."""
 _ENDS = re.compile(rb"\r\n|\r|\n")
 
 
