@@ -254,7 +254,9 @@ def test_a_broken_file_is_refused(tmp_path, content, fault):
         Ontology(files=[path])
 
 
-@pytest.mark.parametrize("content", [gzip.compress(b"<rdf:RDF/>"), b"PK\x03\x04"])
+@pytest.mark.parametrize(
+    "content", [gzip.compress(b"<rdf:RDF/>"), b"PK\x03\x04"], ids=["gz", "zip"]
+)
 def test_a_compressed_file_is_refused_with_what_to_do(tmp_path, content):
     path = tmp_path / "more.owl"
     path.write_bytes(content)
