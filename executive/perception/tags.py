@@ -30,10 +30,10 @@ def tag(name: str) -> NDArray[np.uint8]:
     """The tag (SIDE, SIDE, 3) of a name of at most `LONGEST` bytes, in UTF-8.
 
     The colour of its rim comes from the first three letters of the name. `read` refuses the tag of
-    a longer name (up to 256 bytes).
+    a longer name.
     """
     said = name.encode()
-    content = bytes([len(said) % 256]) + said[:LONGEST].ljust(LONGEST, b"\0")
+    content = bytes([min(len(said), 255)]) + said[:LONGEST].ljust(LONGEST, b"\0")
     bits = np.zeros(_INNER * _INNER * 3, np.uint8)
     spelled = np.unpackbits(np.frombuffer(content + _sum(content), np.uint8))
     bits[: spelled.size] = spelled

@@ -27,7 +27,7 @@ def test_a_tag_spells_any_name(name: str) -> None:
 
 
 def test_a_name_that_is_too_long_is_not_read_as_another_one() -> None:
-    assert read(tag("a" * (LONGEST + 1))) == ""
+    assert not any(read(tag("a" * length)) for length in (LONGEST + 1, 257, 999))
 
 
 @given(NAMES, st.integers(0, 2**32 - 1))
